@@ -9,6 +9,7 @@ mod arms;
 mod bench;
 mod campaigns;
 mod goals;
+mod links;
 mod logs;
 mod mistakes;
 mod motion_mistakes;

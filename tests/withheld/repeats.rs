@@ -71,7 +71,7 @@ fn found(
     let told = diagnose(&real, &log.expect("a right log"), &LogOptions::default());
     let told = told.expect("a log that is diagnosed");
     let named = told.findings.iter().map(|f| format!("{}@{}", f.effect, f.place)).collect();
-    let said = told.remarks.iter().find(|remark| remark.contains("repeats"));
+    let said = told.remarks.iter().find(|remark| remark.contains("repeat"));
     (named, said.cloned().unwrap_or_default())
 }
 

@@ -69,10 +69,20 @@ impl Unseen {
         }
     }
 
-    /// Covariance of the values of a fit, by the same blocks; zero of what they do not determine.
+    /// Covariance of the values of a fit, by the same blocks: each is left out, `(A − A_b)⁻¹ s_b`, since with as many values as
+    /// blocks each draws the values to itself (jackknife: Bell & McCaffrey 2002); zero of what they do not determine.
     pub fn covariance(&self, values: &[f64]) -> DMatrix<f64> {
-        let (solved, count) = (pulled(&self.products, values), self.products.len() as f64);
-        &solved * solved.transpose() * (count / (count - 1.0))
+        let (n, count) = (values.len(), self.products.len() as f64);
+        let Some(whole) = sum(self.products.iter()) else { return DMatrix::zeros(n, n) };
+        let left = DVector::from_fn(n + 1, |k, _| values.get(k).map_or(1.0, |x| -x));
+        let change = |product: &DMatrix<f64>| {
+            let others = (&whole - product).view((0, 0), (n, n)).into_owned();
+            let t = Basis::ordered(&others).t;
+            &t * t.tr_mul(&(product.rows(0, n) * &left))
+        };
+        let changes: Vec<_> = self.products.par_iter().map(change).collect();
+        let changes = DMatrix::from_columns(&changes);
+        &changes * changes.transpose() * ((count - 1.0) / count)
     }
 
     /// Standard deviation of the logarithm of what is left over what `before` leaves of the same blocks, the
@@ -120,18 +130,13 @@ fn without(products: &[DMatrix<f64>], blocks: &Blocks, fold: usize) -> DVector<f
 /// Blocks as the independent numbers that they are: `A⁻¹ (Σ s_b s_bᵀ) A⁻¹` (Liang & Zeger 1986), with
 /// Student's t of as many.
 pub(super) fn half_widths(products: &[DMatrix<f64>], values: &[f64]) -> Vec<f64> {
-    let count = products.len() as f64;
-    let solved = pulled(products, values);
-    let off = students_t(count - 1.0, 0.975) * (count / (count - 1.0)).sqrt();
-    solved.row_iter().map(|row| off * row.norm()).collect()
-}
-
-/// By how much each block pulls the values, `A⁻¹ s_b`.
-fn pulled(products: &[DMatrix<f64>], values: &[f64]) -> DMatrix<f64> {
     let n = values.len();
-    let Some(whole) = sum(products.iter()) else { return DMatrix::zeros(n, 0) };
+    let count = products.len() as f64;
+    let Some(whole) = sum(products.iter()) else { return vec![0.0; n] };
     let left = DVector::from_fn(n + 1, |k, _| values.get(k).map_or(1.0, |x| -x));
     let pulls: Vec<_> = products.iter().map(|product| product.rows(0, n) * &left).collect();
     let t = Basis::ordered(&whole.view((0, 0), (n, n)).into_owned()).t;
-    &t * t.tr_mul(&DMatrix::from_columns(&pulls))
+    let solved = &t * t.tr_mul(&DMatrix::from_columns(&pulls));
+    let off = students_t(count - 1.0, 0.975) * (count / (count - 1.0)).sqrt();
+    (0..n).map(|k| off * solved.row(k).norm()).collect()
 }

@@ -1,0 +1,71 @@
+//! Base parameters of the rigid links against those of the arm that moved, in logs of the independent plant.
+//!
+//! ```text
+//! cargo test -p stiffarm --release --test withheld -- --ignored --nocapture links::full
+//! ```
+//!
+//! Logs of a UR10 and a Panda (43 parameters) without a cause, whose files have wrong masses: how many intervals of 95 %
+//! hold the truth. `LINKS_SEEDS=n` tries so many of each.
+
+use stiffarm_gap::log::{Log, LogOptions, Names, diagnose};
+use stiffarm_gap::motion::{Fourier, Limits};
+use stiffarm_gap::plant::motion::{Logged, MovingPlant, Recording, Side, Stage, csv};
+use stiffarm_gap::rng::{Rng, Stream};
+
+use crate::logs::arm;
+
+/// Parameters of all logs, those that the motion determines, and those whose interval holds the truth.
+fn counted(robot: &str, seed: u64) -> [usize; 3] {
+    let real = arm(robot);
+    let limits = Limits::of(&real, &[1.5], &[5.0]).expect("joints with limits");
+    let course =
+        |k: u64| Fourier::draw(&limits, 30.0, 12, &mut Rng::new(100 * seed + k, Stream::Poses));
+    let courses: Vec<Fourier> = (0..3).map(course).collect();
+    let stages: Vec<Stage<'_>> =
+        courses.iter().map(|course| Stage { course, payload: None }).collect();
+    let plant = MovingPlant::new(&real, &[], Logged::Torque(Side::Motor), Recording::default());
+    let runs = plant.record(&stages, seed).expect("an arm that moves");
+    let text = csv(&real, Logged::Torque(Side::Motor), &runs, &[]);
+    let motions: Vec<_> = real.joints.iter().map(|joint| joint.motion).collect();
+    let log = Log::from_bytes("links", text.as_bytes(), &motions, &Names::default());
+    let mut file = real.clone();
+    file.joints.iter_mut().for_each(|joint| {
+        joint.mass *= 0.5;
+        joint.inertia *= 0.5;
+    });
+    let found = diagnose(&file, &log.expect("a right log"), &LogOptions::default());
+    let found = found.expect("a log that is diagnosed");
+    let rigid = found.rigid.expect("torques of the motors");
+    let (sums, moments) = (real.base_parameters(), real.moments());
+    assert_eq!(rigid.parameters.len(), sums.len());
+    let mut counts = [sums.len(), 0, 0];
+    for (told, sum) in rigid.parameters.iter().zip(&sums) {
+        assert_eq!(told.name, sum.to_string());
+        let (truth, Some([low, high])) = (sum.of(&moments), told.ci95) else { continue };
+        let holds = (low..=high).contains(&truth);
+        counts[1] += 1;
+        counts[2] += usize::from(holds);
+        if !holds {
+            println!(
+                "  {robot} {seed} {}: {:.4e} [{low:.4e} to {high:.4e}], in truth {truth:.4e}",
+                told.name, told.value
+            );
+        }
+    }
+    counts
+}
+
+#[test]
+#[ignore = "takes minutes: see the head of this file"]
+fn full() {
+    let seeds = std::env::var("LINKS_SEEDS").ok().and_then(|n| n.parse().ok()).unwrap_or(4);
+    for robot in ["ur10", "panda"] {
+        let each = (700..700 + seeds).map(|seed| counted(robot, seed));
+        let sum = |sum: [usize; 3], own: [usize; 3]| core::array::from_fn(|k| sum[k] + own[k]);
+        let [all, told, held] = each.fold([0; 3], sum);
+        println!(
+            "{robot}: {all} base parameters, {told} determined, the interval of {held} holds the truth"
+        );
+        assert!(10 * held >= 9 * told, "{robot}: {held} of {told}");
+    }
+}
