@@ -22,11 +22,18 @@ impl Function<'_> {
         let blocks = lively(body, blocks(body, BLOCK));
         let parts = if lets(body) <= BLOCK { Vec::new() } else { self.parts(&blocks) };
         self.kernel_docs(out);
-        self.kernel(out, (&blocks, &parts), false);
-        if self.large() {
+        match self.fused() {
+            true => self.filled(out, parts.is_empty()),
+            false => self.kernel(out, (&blocks, &parts), false),
+        }
+        if self.fused() || self.large() {
             out.blank();
-            out.doc("The same, written into `out`, every entry of it: so many numbers take fewer instructions and less stack");
-            out.doc("this way than as a value that is put there.");
+            out.doc("The same, written into `out`, every entry of it: so many numbers take fewer instructions and less stack this way than as a value that is put there.");
+            if self.of.fallible() {
+                out.doc("");
+                out.doc("# Errors");
+                out.doc(&format!("{} `out` then holds some of what is new.", self.refusal()));
+            }
             self.kernel(out, (&blocks, &parts), true);
         }
         if parts.len() > 1 {
@@ -39,6 +46,40 @@ impl Function<'_> {
     fn statements<T>(&self, with: impl FnOnce(&Statements) -> T) -> T {
         let place = |block, entry| self.place(block, entry);
         with(&Statements { body: &self.of.body, style: self.style, place: &place })
+    }
+
+    /// The function of the posture that returns several things: written in the place where they are returned, so that none
+    /// waits in a register, or beside the stack's top, for the solution of a linear system.
+    fn filled(&self, out: &mut Lines, small: bool) {
+        if small {
+            out.code(INLINE);
+        }
+        // It hands on what `write` may not read.
+        let parameters = self.parameters();
+        let named: Vec<&str> = parameters.iter().map(|p| p.trim_start_matches('_')).collect();
+        out.code(&format!(
+            "pub fn given<S: Scalar>({}) -> {} {{",
+            named.join(", "),
+            self.returned(true)
+        ));
+        out.indent();
+        let write = format!("write({}, ", self.arguments("posture"));
+        let structure = self.structure();
+        if self.of.fallible() {
+            out.code(&format!("let mut result = Ok({structure}::zero());"));
+            out.code("if let Ok(out) = &mut result {");
+            out.indent();
+            out.code(&format!("{write}out)?;"));
+            out.dedent();
+            out.code("}");
+            out.code("result");
+        } else {
+            out.code(&format!("let mut out = {structure}::zero();"));
+            out.code(&format!("{write}&mut out);"));
+            out.code("out");
+        }
+        out.dedent();
+        out.code("}");
     }
 
     /// The function of the posture, which returns its result or writes it. Each has the whole text: a value that the
@@ -59,6 +100,9 @@ impl Function<'_> {
         }
         let parameters = parameters.join(", ");
         out.code(&match written {
+            true if fallible => {
+                format!("pub fn write<S: Scalar>({parameters}) -> Result<(), Unstable> {{")
+            }
             true => format!("pub fn write<S: Scalar>({parameters}) {{"),
             false => format!("pub fn given<S: Scalar>({parameters}) -> {} {{", self.returned(true)),
         });
@@ -82,8 +126,11 @@ impl Function<'_> {
                 self.calls(out, parts, if written { "out" } else { "&mut out" });
             }
         });
-        if !written {
-            out.code(if fallible { "Ok(out)" } else { "out" });
+        match (written, fallible) {
+            (true, true) => out.code("Ok(())"),
+            (true, false) => {}
+            (false, true) => out.code("Ok(out)"),
+            (false, false) => out.code("out"),
         }
         out.dedent();
         out.code("}");

@@ -53,7 +53,7 @@ impl Function<'_> {
         self.of.blocks().len() > 1
     }
 
-    /// Whether it has a second kernel, which writes its result: that is no struct, and never refused.
+    /// Whether it has a second kernel with the whole text, which writes its result: that is no struct, and never refused.
     pub fn large(&self) -> bool {
         let [Block { entries, .. }] = self.of.blocks() else { return false };
         !self.of.fallible() && entries.len() > LARGE && entries.iter().any(|e| !e.is_zero())

@@ -95,11 +95,17 @@ impl Function<'_> {
         if self.of.fallible() {
             out.doc("");
             out.doc("# Errors");
-            let motion = self.of.outputs().any(|output| output.is_of_motion());
-            out.doc(match motion {
-                true => "`Unstable` where a joint moves no mass: its acceleration is then not determined.",
-                false => "`Unstable` where the loaded arm has no stable equilibrium.",
-            });
+            out.doc(self.refusal());
+        }
+    }
+
+    /// When there is no result.
+    pub fn refusal(&self) -> &'static str {
+        match self.of.outputs().any(|output| output.is_of_motion()) {
+            true => {
+                "`Unstable` where a joint moves no mass: its acceleration is then not determined."
+            }
+            false => "`Unstable` where the loaded arm has no stable equilibrium.",
         }
     }
 
@@ -232,6 +238,18 @@ impl Function<'_> {
             }
             out.code(&format!("pub {}: {},", held.name(), shapes::ty(held, n)));
         }
+        out.dedent();
+        out.code("}");
+        out.blank();
+        out.code(&format!("impl<S: Scalar> {}<S> {{", self.structure()));
+        out.indent();
+        out.doc("Every number zero: a place for `write`.");
+        out.code("pub fn zero() -> Self {");
+        out.indent();
+        out.code("let zero = S::lit(0.0);");
+        out.code(&self.zero());
+        out.dedent();
+        out.code("}");
         out.dedent();
         out.code("}");
     }

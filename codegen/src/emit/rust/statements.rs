@@ -3,6 +3,7 @@
 use super::style::Rust;
 use crate::emit::lines::Lines;
 use crate::ir::{Angle, Block, Name, Solve, Statement, Term};
+use crate::number::Number;
 
 /// Names in one scope; rustc's recursion over a scope's statements overflows at a few thousand.
 pub(super) const BLOCK: usize = 256;
@@ -70,7 +71,8 @@ impl Statements<'_> {
                 let [force, moment] = most.map(|most| self.print(&Term::Number(most)));
                 format!("margin(wrench, [{force}, {moment}])")
             }
-            None => "zero".to_string(),
+            // The pivots of a symmetric matrix are themselves the test.
+            None => self.print(&Term::Number(Number::integer(i128::from(solve.of_motion)))),
         };
         let names = solve.unknowns.iter().map(|name| name.as_deref().unwrap_or("_"));
         let names = names.collect::<Vec<_>>().join(", ");
