@@ -34,8 +34,9 @@ pub(super) fn definite(out: &mut Lines, n: usize, name: &str, language: &C) {
     let (size, local) = (n * n, language.local());
     out.verbatim(&format!(
         "
-/* Whether the symmetric part of a matrix a is positive definite, so that every small displacement takes
- * work: the pivots of L*D*L^T of a + a^T are positive. twice is the lower triangle of the sum, column-major. */
+/* Whether the symmetric part of a matrix a is positive definite, so that every small displacement
+ * takes work: the pivots of L*D*L^T of a + a^T are positive. twice is the lower triangle of that
+ * sum, column-major. */
 {local} {name}_status_t definite_{n}({real} twice[{size}])
 {{
     {name}_status_t status = {upper}_OK;

@@ -126,7 +126,8 @@ static void sin_cos(int count, const REAL *angles, REAL *sines, REAL *cosines)
 
 const LANES: &str = "
 /* Sines and cosines are taken of as many angles at a time as a register holds, where the compiler
- * has vectors; eight doubles on AMD's cores only, for the widest registers close a port of Intel's. Each lane is worked out as one number is elsewhere: the bits are the same. */
+ * has vectors; eight doubles on AMD's cores only, for the widest registers close a port of Intel's.
+ * Each lane is worked out as one number is elsewhere: the bits are the same. */
 ";
 
 const TYPES: &str = "#else
