@@ -79,7 +79,7 @@ pub fn solve_fused<S: Scalar, const N: usize, const M: usize>(
     b: [S; N],
     margin: S,
 ) -> Result<[S; N], Unstable> {
-    follow::<S, N, M>(a, b, margin, |x, factor, y| S::mul_add(-factor, y, x))
+    follow::<S, N, M>(a, b, margin, |x, factor, y| S::mul_add(factor, -y, x))
 }
 
 #[allow(clippy::eq_op, reason = "it is not zero where a number is not finite")]
