@@ -174,14 +174,12 @@ impl Function<'_> {
     fn solve(&self, out: &mut Lines, k: usize, solve: &Solve) {
         let (real, n) = (self.real(), solve.right.len());
         let array = |out: &mut Lines, name: &str, rows: &[Term]| {
-            out.code(&format!("{real} {name}[{}] = {{", rows.len()));
-            out.indent();
-            for column in rows.chunks(n) {
-                let each: Vec<String> = column.iter().map(|term| self.print(term)).collect();
-                out.code(&format!("{},", each.join(", ")));
-            }
-            out.dedent();
-            out.code("};");
+            out.within(&format!("{real} {name}[{}] = {{", rows.len()), "};", |out| {
+                for column in rows.chunks(n) {
+                    let each: Vec<String> = column.iter().map(|term| self.print(term)).collect();
+                    out.code(&format!("{},", each.join(", ")));
+                }
+            });
         };
         array(out, &format!("stiffness_{k}"), &solve.matrix);
         array(out, &format!("load_{k}"), &solve.right);

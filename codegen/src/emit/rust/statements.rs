@@ -58,13 +58,11 @@ impl Statements<'_> {
 
     fn solve(&self, out: &mut Lines, solve: &Solve) {
         let (n, leading) = (solve.right.len(), solve.leading);
-        out.code("let stiffness = [");
-        out.indent();
-        for column in solve.matrix.chunks(n) {
-            out.code(&format!("[{}],", self.all(column)));
-        }
-        out.dedent();
-        out.code("];");
+        out.within("let stiffness = [", "];", |out| {
+            for column in solve.matrix.chunks(n) {
+                out.code(&format!("[{}],", self.all(column)));
+            }
+        });
         out.code(&format!("let load = [{}];", self.all(&solve.right)));
         let margin = match solve.margin {
             Some(most) => {
