@@ -3,16 +3,17 @@
 use core::fmt::{Debug, LowerHex};
 
 use stiffarm::kernels::{Motion, Scalar};
-use stiffarm_codegen::emit::Precision;
+use stiffarm_codegen::emit::{COptions, Precision, Sines, c};
 use stiffarm_draws::Draws;
 
-use crate::arms::{Arm, build, doubles, singles};
-use crate::compiler::{Folder, run, with_each_compiler};
+use crate::arms::{Arm, build, doubles, robot, singles};
+use crate::compiler::{Folder, compile, run, with_each_compiler};
 
 with_each_compiler! {
     doubles_are_the_rust_kernels_bits
     singles_are_the_rust_kernels_bits
     as_many_lanes_as_there_are_have_the_same_bits
+    the_widest_registers_are_taken_on_amds_cores_alone
     a_reference_that_was_tampered_with_is_found
 }
 
@@ -148,11 +149,13 @@ fn singles_are_the_rust_kernels_bits(compiler: &str) {
 
 /// One number at a time, and the registers beyond those that the target has anyway.
 fn as_many_lanes_as_there_are_have_the_same_bits(compiler: &str) {
-    let mut widths = vec!["-U__SSE2__", "-U__aarch64__"];
+    let mut widths = vec![&["-O2", "-U__SSE2__"][..], &["-O2", "-U__aarch64__"]];
     #[cfg(target_arch = "x86_64")]
     {
-        widths.extend(std::is_x86_feature_detected!("avx2").then_some("-mavx2"));
-        widths.extend(std::is_x86_feature_detected!("avx512f").then_some("-mavx512f"));
+        let (avx2, avx512) =
+            (std::is_x86_feature_detected!("avx2"), std::is_x86_feature_detected!("avx512f"));
+        widths.extend(avx2.then_some(&["-O2", "-mavx2"][..]));
+        widths.extend(avx512.then_some(&WIDEST[..]));
     }
     // Sums of angles, seven of them, and angles that only readings and inputs have.
     let is_one = |id: &str| ["ur10", "iiwa14", "corrected"].contains(&id);
@@ -160,8 +163,30 @@ fn as_many_lanes_as_there_are_have_the_same_bits(compiler: &str) {
     doubles.retain(|arm| is_one(arm.id));
     singles.retain(|arm| is_one(arm.id));
     for width in widths {
-        check(compiler, &doubles, &["-O2", width]);
-        check(compiler, &singles, &["-O2", width]);
+        check(compiler, &doubles, width);
+        check(compiler, &singles, width);
+    }
+}
+
+/// A core with 512 bits that is not Intel's.
+const WIDEST: [&str; 3] = ["-O2", "-mavx512f", "-msse4a"];
+
+/// Intel's cores close a port to the algebra around the sines while an instruction on 512 bits waits.
+fn the_widest_registers_are_taken_on_amds_cores_alone(compiler: &str) {
+    if cfg!(not(target_arch = "x86_64")) {
+        return;
+    }
+    let robot = robot("ur10");
+    let options =
+        COptions { name: "ur10".to_owned(), precision: Precision::F64, sines: Sines::Polynomial };
+    let files = c(&robot, &options).expect("numbers only");
+    let folder = Folder::new(&format!("{compiler}-registers"));
+    folder.write("ur10.h", &files.header);
+    folder.write("ur10.c", &files.source);
+    for (flags, wide) in [(&WIDEST[..], true), (&["-O2", "-march=skylake-avx512"], false)] {
+        compile(compiler, &folder, &[flags, &["-S", "ur10.c"]].concat());
+        let text = std::fs::read_to_string(folder.path().join("ur10.s")).expect("assembler");
+        assert_eq!(text.contains("%zmm"), wide, "{flags:?}");
     }
 }
 

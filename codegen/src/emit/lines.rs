@@ -23,6 +23,15 @@ impl Lines {
         self.depth = self.depth.saturating_sub(1);
     }
 
+    /// `head`, what `inner` writes a step further in, and `close`.
+    pub fn within(&mut self, head: &str, close: &str, inner: impl FnOnce(&mut Self)) {
+        self.code(head);
+        self.indent();
+        inner(self);
+        self.dedent();
+        self.code(close);
+    }
+
     /// A statement; too long a one is continued, broken before operators and after commas.
     pub fn code(&mut self, line: &str) {
         let mut indent = 4 * self.depth;

@@ -387,11 +387,9 @@ impl Printer<'_> {
         let list = |terms: &[Term]| {
             terms.iter().map(|term| term.print(&IN_FUNCTION)).collect::<Vec<_>>().join(", ")
         };
-        out.code("matrix = [");
-        out.indent();
-        matrix.chunks(right.len()).for_each(|column| out.code(&format!("{},", list(column))));
-        out.dedent();
-        out.code("]");
+        out.within("matrix = [", "]", |out| {
+            matrix.chunks(right.len()).for_each(|column| out.code(&format!("{},", list(column))))
+        });
         assign(out, "right", &format!("[{}]", list(right)));
         let names = unknowns.iter().map(|name| name.as_deref().unwrap_or("_"));
         let names = names.collect::<Vec<_>>().join(", ");

@@ -2,7 +2,7 @@
 
 use num_rational::Ratio;
 use stiffarm_codegen::number::Number;
-use stiffarm_codegen::robot::{Angle, Convention, Joint, Motion, Robot, Value};
+use stiffarm_codegen::robot::{Angle, Convention, Joint, Robot, Value};
 
 /// A row: a, alpha in quarter turns, d; millimetres.
 pub struct Row(pub i128, pub i64, pub i128);
@@ -12,38 +12,13 @@ pub fn arm(name: &str, convention: Convention, rows: &[Row]) -> Robot {
     let length = |mm| Value::Number(Number::ratio(mm, 1000));
     let joints = rows.iter().enumerate().map(|(i, Row(a, alpha, d))| Joint {
         name: format!("joint {}", i + 1),
-        motion: Motion::Revolute,
-        theta: Angle::ZERO,
         d: length(*d),
         a: length(*a),
         alpha: Angle::Pi(Ratio::new(*alpha, 2)),
-        beta: Angle::ZERO,
         stiffness: Some(Value::Number(Number::integer(1_000_000))),
-        mass: None,
-        com: [Value::ZERO, Value::ZERO, Value::ZERO],
-        inertia: None,
-        drive: Default::default(),
-        limits: None,
-        source: None,
-        beam: None,
+        ..Joint::default()
     });
-    Robot {
-        name: name.into(),
-        convention,
-        gravity: [Value::ZERO, Value::ZERO, Value::Number(Number::ratio(-980_665, 100_000))],
-        torque_side: None,
-        joints: joints.collect(),
-        base: Default::default(),
-        tool: Default::default(),
-        frames: Vec::new(),
-        markers: Vec::new(),
-        effects: Vec::new(),
-        beyond: Default::default(),
-        payloads: Vec::new(),
-        outputs: Vec::new(),
-        at: Vec::new(),
-        inverse_kinematics: None,
-    }
+    Robot { name: name.into(), convention, joints: joints.collect(), ..Robot::default() }
 }
 
 /// UR5, lengths rounded to millimetres (the counts do not depend on them).

@@ -84,7 +84,19 @@ fn time(path: &str, poses: &[[f64; 6]], wrenches: &[[f64; 6]]) {
             ]);
         )*};
     }
-    with_wrench!(complementary_stiffness deflection_first_order deflection all);
+    with_wrench!(complementary_stiffness deflection_first_order deflection);
+    // So many numbers are written where they are to stand, as the peers' are.
+    macro_rules! written {
+        ($name:literal, $lanes:literal, $way:ident, $input:expr) => {
+            let first = $way::all(&$input.0[0], &$input.1[0]).expect("the arm is stable");
+            candidates.push(Candidate::writing($name, $lanes, $input, first, |q, w, out| {
+                $way::all::write(&$way::Posture::new(q), w, out).expect("the arm is stable");
+            }));
+        };
+    }
+    written!("stiffarm all", 1, plain, input);
+    written!("stiffarm-fused all", 1, fused, input);
+    written!("stiffarm-x8 all", 8, plain, lanes);
     let of_pose = |pose: &Pose<f64>| pose.rotation[2][0];
     let of_matrix = |matrix: &[[f64; 6]; 6]| matrix[3][0];
     let mut serial = [

@@ -5,11 +5,7 @@ use crate::emit::lines::{Lines, WIDTH};
 impl Lines {
     /// `{`, what `inner` writes, `}`.
     pub fn braces(&mut self, inner: impl FnOnce(&mut Self)) {
-        self.code("{");
-        self.indent();
-        inner(self);
-        self.dedent();
-        self.code("}");
+        self.within("{", "}", inner);
     }
 
     /// Sentences as one comment, each from a new line, wrapped at words.

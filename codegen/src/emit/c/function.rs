@@ -8,6 +8,7 @@ use super::trigonometry::{Pair, declare};
 use crate::derive::Block;
 use crate::emit::lines::Lines;
 use crate::ir::{self, Argument, Given, Solve, Statement, Style as _, Term};
+use crate::number::Number;
 
 /// A function to be printed.
 pub(in crate::emit) struct Function<'a> {
@@ -173,14 +174,12 @@ impl Function<'_> {
     fn solve(&self, out: &mut Lines, k: usize, solve: &Solve) {
         let (real, n) = (self.real(), solve.right.len());
         let array = |out: &mut Lines, name: &str, rows: &[Term]| {
-            out.code(&format!("{real} {name}[{}] = {{", rows.len()));
-            out.indent();
-            for column in rows.chunks(n) {
-                let each: Vec<String> = column.iter().map(|term| self.print(term)).collect();
-                out.code(&format!("{},", each.join(", ")));
-            }
-            out.dedent();
-            out.code("};");
+            out.within(&format!("{real} {name}[{}] = {{", rows.len()), "};", |out| {
+                for column in rows.chunks(n) {
+                    let each: Vec<String> = column.iter().map(|term| self.print(term)).collect();
+                    out.code(&format!("{},", each.join(", ")));
+                }
+            });
         };
         array(out, &format!("stiffness_{k}"), &solve.matrix);
         array(out, &format!("load_{k}"), &solve.right);
@@ -191,7 +190,8 @@ impl Function<'_> {
                 let [force, moment] = most.map(|most| self.module.language.number(most));
                 format!("load_margin(wrench, {force}, {moment})")
             }
-            None => self.module.language.zero(),
+            // The pivots of a symmetric matrix are themselves the test.
+            None => self.module.language.number(Number::integer(i128::from(solve.of_motion))),
         };
         out.code(&format!("status = {function}(stiffness_{k}, load_{k}, {margin});"));
         out.code(&format!("if (status == {})", self.module.constant("OK")));

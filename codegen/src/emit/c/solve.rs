@@ -25,29 +25,25 @@ pub(super) fn margin(out: &mut Lines, language: &C) {
     ));
 }
 
+/// Unknowns up to which the elimination is written out, as the Rust kernels' is: the compiler keeps the system in registers.
+const WRITTEN_OUT: usize = 8;
+
 /// `static … definite_6(…)`: whether the arm bears the load.
 pub(super) fn definite(out: &mut Lines, n: usize, name: &str, language: &C) {
     let (real, suffix, upper) = (language.real(), language.suffix(), name.to_uppercase());
     let (size, local) = (n * n, language.local());
     out.verbatim(&format!(
         "
-/* Whether the symmetric part of a is positive definite, so that every small displacement takes work:
- * the pivots of L*D*L^T of a + a^T are positive. a is column-major. */
-{local} {name}_status_t definite_{n}(const {real} a[{size}])
+/* Whether the symmetric part of a matrix a is positive definite, so that every small displacement
+ * takes work: the pivots of L*D*L^T of a + a^T are positive. twice is the lower triangle of that
+ * sum, column-major. */
+{local} {name}_status_t definite_{n}({real} twice[{size}])
 {{
     {name}_status_t status = {upper}_OK;
-    {real} twice[{size}];
     unsigned int k;
     unsigned int row;
     unsigned int column;
 
-    for (column = 0U; column < {n}U; column++)
-    {{
-        for (row = column; row < {n}U; row++)
-        {{
-            twice[(column * {n}U) + row] = a[(column * {n}U) + row] + a[(row * {n}U) + column];
-        }}
-    }}
     for (k = 0U; k < {n}U; k++)
     {{
         const {real} inverse = 1.0{suffix} / twice[(k * {n}U) + k];
@@ -76,9 +72,27 @@ pub(super) fn definite(out: &mut Lines, n: usize, name: &str, language: &C) {
 /// `static … solve_6(…)`: bounds are constants, one exit.
 pub(super) fn solve(out: &mut Lines, (n, m): (usize, usize), name: &str, language: &C) {
     let function = solve_name(n, m);
-    let (more, follow) = if m < n { follow(n, m, name, language) } else { Default::default() };
     let (real, suffix, upper) = (language.real(), language.suffix(), name.to_uppercase());
     let (size, local) = (n * n, language.local());
+    let more = match m < n {
+        true => format!(
+            "\n * Nothing depends on the unknowns from x[{m}] on, so that each follows from its row."
+        ),
+        false => String::new(),
+    };
+    let filled = |text: &str| {
+        // The arm's name comes last: it may hold one of the other words.
+        let text = text.replace("REAL", real).replace("ZERO", &language.zero());
+        let text = text.replace("ONE", &format!("1.0{suffix}")).replace("ROWS", &format!("{n}U"));
+        text.replace("LEADING", &format!("{m}U")).replace("REFUSED", &format!("{upper}_UNSTABLE"))
+    };
+    let [indices, sum, elimination] = match n <= WRITTEN_OUT {
+        true => ["".to_owned(), written_sum(n), written_out((n, m), &upper, language)],
+        false => {
+            let rows = if m < n { FOLLOW } else { "" };
+            [INDICES.to_owned(), filled(LOOPED_SUM), filled(LOOPED) + &filled(rows)]
+        }
+    };
     out.verbatim(&format!(
         "
 /* Solves a * x = b by elimination without pivoting; a is column-major, x takes the place of b. Where
@@ -86,69 +100,120 @@ pub(super) fn solve(out: &mut Lines, (n, m): (usize, usize), name: &str, languag
  * it is.{more} */
 {local} {name}_status_t {function}({real} a[{size}], {real} b[{n}], {real} margin)
 {{
-    {name}_status_t status = (margin > 0.0{suffix}) ? {upper}_OK : definite_{n}(a);
-    unsigned int k;
-    unsigned int i;
-    unsigned int column;
-
-    for (k = 0U; k < {m}U; k++)
+    {name}_status_t status = {upper}_OK;
+{indices}
+    if (!(margin > 0.0{suffix}))
     {{
-        const {real} inverse = 1.0{suffix} / a[(k * {n}U) + k];
+        {real} twice[{size}];
 
-        if (!(a[(k * {n}U) + k] > 0.0{suffix}))
-        {{
-            status = {upper}_UNSTABLE;
-        }}
-        for (i = k + 1U; i < {m}U; i++)
-        {{
-            const {real} factor = a[(k * {n}U) + i] * inverse;
-
-            for (column = k + 1U; column < {m}U; column++)
-            {{
-                a[(column * {n}U) + i] = a[(column * {n}U) + i] - factor * a[(column * {n}U) + k];
-            }}
-            b[i] = b[i] - factor * b[k];
-        }}
+{sum}        status = definite_{n}(twice);
     }}
-    for (k = {m}U; k > 0U; k--)
-    {{
-        const unsigned int last = k - 1U;
-
-        b[last] = b[last] * (1.0{suffix} / a[(last * {n}U) + last]);
-        for (i = 0U; i < last; i++)
-        {{
-            b[i] = b[i] - a[(last * {n}U) + i] * b[last];
-        }}
-    }}
-{follow}    return status;
+{elimination}    return status;
 }}
 "
     ));
 }
 
-/// What the comment says more, and the rows of the unknowns from `m` on.
-fn follow(n: usize, m: usize, name: &str, language: &C) -> (String, String) {
-    let (real, suffix, upper) = (language.real(), language.suffix(), name.to_uppercase());
-    let more = format!(
-        "\n * Nothing depends on the unknowns from x[{m}] on, so that each follows from its row."
-    );
-    let rows = format!(
-        "    for (i = {m}U; i < {n}U; i++)
-    {{
-        const {real} pivot = a[(i * {n}U) + i];
+const INDICES: &str = "    unsigned int k;
+    unsigned int i;
+    unsigned int column;
+";
 
-        for (column = 0U; column < {m}U; column++)
-        {{
-            b[i] = b[i] - a[(column * {n}U) + i] * b[column];
-        }}
+const LOOPED_SUM: &str = "        for (column = 0U; column < ROWS; column++)
+        {
+            for (i = column; i < ROWS; i++)
+            {
+                twice[(column * ROWS) + i] = a[(column * ROWS) + i] + a[(i * ROWS) + column];
+            }
+        }
+";
+
+const LOOPED: &str = "    for (k = 0U; k < LEADING; k++)
+    {
+        if (!(a[(k * ROWS) + k] > ZERO))
+        {
+            status = REFUSED;
+        }
+        a[(k * ROWS) + k] = ONE / a[(k * ROWS) + k];
+        for (i = k + 1U; i < LEADING; i++)
+        {
+            const REAL factor = a[(k * ROWS) + i] * a[(k * ROWS) + k];
+
+            for (column = k + 1U; column < LEADING; column++)
+            {
+                a[(column * ROWS) + i] = a[(column * ROWS) + i] - factor * a[(column * ROWS) + k];
+            }
+            b[i] = b[i] - factor * b[k];
+        }
+    }
+    for (k = LEADING; k > 0U; k--)
+    {
+        const unsigned int last = k - 1U;
+
+        b[last] = b[last] * a[(last * ROWS) + last];
+        for (i = 0U; i < last; i++)
+        {
+            b[i] = b[i] - a[(last * ROWS) + i] * b[last];
+        }
+    }
+";
+
+/// The rows of the unknowns that nothing depends on.
+const FOLLOW: &str = "    for (i = LEADING; i < ROWS; i++)
+    {
+        const REAL pivot = a[(i * ROWS) + i];
+
+        for (column = 0U; column < LEADING; column++)
+        {
+            b[i] = b[i] - a[(column * ROWS) + i] * b[column];
+        }
         /* The difference is zero but where the row is not finite. */
-        if (!((pivot + (b[i] - b[i])) > 0.0{suffix}))
-        {{
-            status = {upper}_UNSTABLE;
-        }}
-        b[i] = b[i] * (1.0{suffix} / pivot);
-    }}
-"
-    );
-    (more, rows)
+        if (!((pivot + (b[i] - b[i])) > ZERO))
+        {
+            status = REFUSED;
+        }
+        b[i] = b[i] * (ONE / pivot);
+    }
+";
+
+/// The lower triangle of `a + aᵀ`, entry by entry: no pointer to `a` goes further.
+fn written_sum(n: usize) -> String {
+    let entries =
+        (0..n).flat_map(|column| (column..n).map(move |row| (column * n + row, row * n + column)));
+    entries.map(|(at, across)| format!("        twice[{at}] = a[{at}] + a[{across}];\n")).collect()
+}
+
+/// The elimination, statement by statement: the same operations as those of [`LOOPED`] and [`FOLLOW`].
+fn written_out((n, m): (usize, usize), upper: &str, language: &C) -> String {
+    let a = |column: usize, row: usize| format!("a[{}]", column * n + row);
+    let (real, suffix) = (language.real(), language.suffix());
+    let mut lines: Vec<String> = Vec::new();
+    let refuse = |unless: String| {
+        format!(
+            "if (!({unless} > 0.0{suffix}))\n    {{\n        status = {upper}_UNSTABLE;\n    }}"
+        )
+    };
+    for k in 0..m {
+        let pivot = a(k, k);
+        lines.push(refuse(pivot.clone()));
+        lines.push(format!("{pivot} = 1.0{suffix} / {pivot};"));
+        for i in k + 1..m {
+            lines.push(format!("const {real} l{i}{k} = {} * {pivot};", a(k, i)));
+            let row = (k + 1..m).map(|column| [a(column, i), a(column, k)]);
+            for [x, y] in row.chain([[format!("b[{i}]"), format!("b[{k}]")]]) {
+                lines.push(format!("{x} = {x} - l{i}{k} * {y};"));
+            }
+        }
+    }
+    for k in (0..m).rev() {
+        lines.push(format!("b[{k}] = b[{k}] * {};", a(k, k)));
+        lines.extend((0..k).map(|i| format!("b[{i}] = b[{i}] - {} * b[{k}];", a(k, i))));
+    }
+    for i in m..n {
+        lines.extend((0..m).map(|k| format!("b[{i}] = b[{i}] - {} * b[{k}];", a(k, i))));
+        lines.push("/* The difference is zero but where the row is not finite. */".to_owned());
+        lines.push(refuse(format!("({} + (b[{i}] - b[{i}]))", a(i, i))));
+        lines.push(format!("b[{i}] = b[{i}] * (1.0{suffix} / {});", a(i, i)));
+    }
+    lines.iter().map(|line| format!("    {line}\n")).collect()
 }

@@ -86,9 +86,7 @@ fn functions(module: &Module, out: &mut Lines) {
     if by_joints {
         out.blank();
         out.code(&module.posture_head());
-        out.braces(|out| {
-            module.make_posture(out, &module.ir.posture);
-        });
+        out.braces(|out| module.make_posture(out, &module.ir.posture));
         if module.ir.readings.moves {
             module.joints(out);
         }
@@ -102,14 +100,12 @@ fn sparsity(module: &Module, out: &mut Lines) {
         let size = module.constant(&format!("{}_SIZE", function.full_name().to_uppercase()));
         out.blank();
         let (robot, name) = (module.name(), function.full_name());
-        out.code(&format!("const uint8_t {robot}_{name}_sparsity[{size}] = {{"));
-        out.indent();
-        let rows = block.held.shape(module.ir.robot.dof()).0;
-        for column in block.entries.chunks(rows) {
-            let flags = column.iter().map(|e| if e.is_zero() { "0U" } else { "1U" });
-            out.code(&format!("{},", flags.collect::<Vec<_>>().join(", ")));
-        }
-        out.dedent();
-        out.code("};");
+        out.within(&format!("const uint8_t {robot}_{name}_sparsity[{size}] = {{"), "};", |out| {
+            let rows = block.held.shape(module.ir.robot.dof()).0;
+            for column in block.entries.chunks(rows) {
+                let flags = column.iter().map(|e| if e.is_zero() { "0U" } else { "1U" });
+                out.code(&format!("{},", flags.collect::<Vec<_>>().join(", ")));
+            }
+        });
     }
 }

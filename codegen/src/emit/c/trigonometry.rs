@@ -89,15 +89,19 @@ pub(super) fn take(out: &mut Lines, language: &C, pairs: &[Pair]) {
 
 /// The types of lanes: how many depends on the target.
 fn lanes(real: &str, bits: usize) -> String {
-    let registers = [("AVX512F", 512), ("AVX2", 256), ("SSE2", 128), ("aarch64", 128)];
+    // Eight angles at most: few arms have more. In the widest registers of AMD's cores only, which alone have SSE4A:
+    // Intel's close a port to the algebra around them (`kernels/src/lanes/pose.rs`).
+    let all: &[(&[&str], usize)] =
+        &[(&["AVX512F", "SSE4A"], 512), (&["AVX2"], 256), (&["SSE2"], 128), (&["aarch64"], 128)];
+    // Eight floats need no more than 256 bits.
+    let registers = all.iter().filter(|(_, width)| *width <= 8 * bits);
     let mut text = String::from(LANES);
-    for (at, (target, width)) in registers.into_iter().enumerate() {
-        // Eight angles at most: few arms have more.
-        let lanes = (width / bits).min(8);
+    for (at, (target, width)) in registers.enumerate() {
+        let lanes = width / bits;
         let loaded: Vec<String> = (0..lanes).map(|k| format!("x[{k}]")).collect();
         let test = if at == 0 { "if" } else { "elif" };
-        text +=
-            &format!("#{test} defined(__GNUC__) && defined(__{target}__)\n#define LANES {lanes}\n");
+        let target: String = target.iter().map(|one| format!(" && defined(__{one}__)")).collect();
+        text += &format!("#{test} defined(__GNUC__){target}\n#define LANES {lanes}\n");
         text += &format!("#define LOADED(x) {{{}}}\n", loaded.join(", ").replace("x[", "(x)["));
     }
     text += &TYPES.replace("REAL", real).replace("BITS", &bits.to_string());
@@ -122,7 +126,8 @@ static void sin_cos(int count, const REAL *angles, REAL *sines, REAL *cosines)
 
 const LANES: &str = "
 /* Sines and cosines are taken of as many angles at a time as a register holds, where the compiler
- * has vectors. Each lane is worked out as one number is elsewhere: the bits are the same. */
+ * has vectors; eight doubles on AMD's cores only, for the widest registers close a port of Intel's.
+ * Each lane is worked out as one number is elsewhere: the bits are the same. */
 ";
 
 const TYPES: &str = "#else

@@ -22,11 +22,18 @@ impl Function<'_> {
         let blocks = lively(body, blocks(body, BLOCK));
         let parts = if lets(body) <= BLOCK { Vec::new() } else { self.parts(&blocks) };
         self.kernel_docs(out);
-        self.kernel(out, (&blocks, &parts), false);
-        if self.large() {
+        match self.fused() {
+            true => self.filled(out, parts.is_empty()),
+            false => self.kernel(out, (&blocks, &parts), false),
+        }
+        if self.fused() || self.large() {
             out.blank();
-            out.doc("The same, written into `out`, every entry of it: so many numbers take fewer instructions and less stack");
-            out.doc("this way than as a value that is put there.");
+            out.doc("The same, written into `out`, every entry of it: so many numbers take fewer instructions and less stack this way than as a value that is put there.");
+            if self.of.fallible() {
+                out.doc("");
+                out.doc("# Errors");
+                out.doc(&format!("{} `out` then holds some of what is new.", self.refusal()));
+            }
             self.kernel(out, (&blocks, &parts), true);
         }
         if parts.len() > 1 {
@@ -39,6 +46,36 @@ impl Function<'_> {
     fn statements<T>(&self, with: impl FnOnce(&Statements) -> T) -> T {
         let place = |block, entry| self.place(block, entry);
         with(&Statements { body: &self.of.body, style: self.style, place: &place })
+    }
+
+    /// The function of the posture that returns several things: written in the place where they are returned, so that none
+    /// waits in a register, or beside the stack's top, for the solution of a linear system.
+    fn filled(&self, out: &mut Lines, small: bool) {
+        if small {
+            out.code(INLINE);
+        }
+        // It hands on what `write` may not read.
+        let parameters = self.parameters();
+        let named: Vec<&str> = parameters.iter().map(|p| p.trim_start_matches('_')).collect();
+        out.within(
+            &format!("pub fn given<S: Scalar>({}) -> {} {{", named.join(", "), self.returned(true)),
+            "}",
+            |out| {
+                let write = format!("write({}, ", self.arguments("posture"));
+                let structure = self.structure();
+                if self.of.fallible() {
+                    out.code(&format!("let mut result = Ok({structure}::zero());"));
+                    out.within("if let Ok(out) = &mut result {", "}", |out| {
+                        out.code(&format!("{write}out)?;"));
+                    });
+                    out.code("result");
+                } else {
+                    out.code(&format!("let mut out = {structure}::zero();"));
+                    out.code(&format!("{write}&mut out);"));
+                    out.code("out");
+                }
+            },
+        );
     }
 
     /// The function of the posture, which returns its result or writes it. Each has the whole text: a value that the
@@ -58,35 +95,49 @@ impl Function<'_> {
             parameters.push(format!("out: &mut {}", self.ty()));
         }
         let parameters = parameters.join(", ");
-        out.code(&match written {
-            true => format!("pub fn write<S: Scalar>({parameters}) {{"),
-            false => format!("pub fn given<S: Scalar>({parameters}) -> {} {{", self.returned(true)),
-        });
-        out.indent();
-        // Of a function in parts each part opens its own; a linear system stands between them.
-        open_inputs(out, self, body.iter().filter(|step| parts.len() <= 1 || step.is_solve()));
-        if written {
-            self.zeros(out);
-        } else {
-            out.code("let zero = S::lit(0.0);");
-            let stored = self.of.program.roots().iter().any(|e| !e.is_zero());
-            let mutable = if stored { "mut " } else { "" };
-            out.code(&format!("let {mutable}out = {};", self.zero()));
-        }
-        self.statements(|statements| {
-            if small {
-                statements.steps(out, 0..body.len());
-            } else if parts.len() <= 1 {
-                blocks.iter().for_each(|block| statements.block(out, block));
-            } else {
-                self.calls(out, parts, if written { "out" } else { "&mut out" });
-            }
-        });
-        if !written {
-            out.code(if fallible { "Ok(out)" } else { "out" });
-        }
-        out.dedent();
-        out.code("}");
+        out.within(
+            &match written {
+                true if fallible => {
+                    format!("pub fn write<S: Scalar>({parameters}) -> Result<(), Unstable> {{")
+                }
+                true => format!("pub fn write<S: Scalar>({parameters}) {{"),
+                false => {
+                    format!("pub fn given<S: Scalar>({parameters}) -> {} {{", self.returned(true))
+                }
+            },
+            "}",
+            |out| {
+                // Of a function in parts each part opens its own; a linear system stands between them.
+                open_inputs(
+                    out,
+                    self,
+                    body.iter().filter(|step| parts.len() <= 1 || step.is_solve()),
+                );
+                if written {
+                    self.zeros(out);
+                } else {
+                    out.code("let zero = S::lit(0.0);");
+                    let stored = self.of.program.roots().iter().any(|e| !e.is_zero());
+                    let mutable = if stored { "mut " } else { "" };
+                    out.code(&format!("let {mutable}out = {};", self.zero()));
+                }
+                self.statements(|statements| {
+                    if small {
+                        statements.steps(out, 0..body.len());
+                    } else if parts.len() <= 1 {
+                        blocks.iter().for_each(|block| statements.block(out, block));
+                    } else {
+                        self.calls(out, parts, if written { "out" } else { "&mut out" });
+                    }
+                });
+                match (written, fallible) {
+                    (true, true) => out.code("Ok(())"),
+                    (true, false) => {}
+                    (false, true) => out.code("Ok(out)"),
+                    (false, false) => out.code("out"),
+                }
+            },
+        );
     }
 
     /// Entries that are structurally zero, one by one: the others are then stored once, too.
@@ -143,15 +194,15 @@ impl Function<'_> {
         // Which of the inputs a part reads depends on where the text was cut.
         out.code("#[allow(unused_variables)]");
         let head = format!("fn part_{}<S: Scalar>({}){returned} {{", k + 1, parameters.join(", "));
-        out.code(&head);
-        out.indent();
-        open_inputs(out, self, &self.of.body[whole.steps.clone()]);
-        out.code(&format!("let [{}] = live;", list(&whole.live_in)));
-        self.statements(|statements| blocks.iter().for_each(|block| statements.block(out, block)));
-        if outs > 0 {
-            out.code(&format!("[{}]", list(&whole.live_out)));
-        }
-        out.dedent();
-        out.code("}");
+        out.within(&head, "}", |out| {
+            open_inputs(out, self, &self.of.body[whole.steps.clone()]);
+            out.code(&format!("let [{}] = live;", list(&whole.live_in)));
+            self.statements(|statements| {
+                blocks.iter().for_each(|block| statements.block(out, block))
+            });
+            if outs > 0 {
+                out.code(&format!("[{}]", list(&whole.live_out)));
+            }
+        });
     }
 }

@@ -35,25 +35,21 @@ pub fn flexible_rust(
         .filter(|(place, component)| displacements.has(*place, *component))
         .map(|(place, component)| format!("{:?}", format!("{}{place}", COMPONENTS[component])))
         .collect();
-    out.code(&format!("pub const DISPLACEMENTS: [&str; {}] = [", kept.len()));
-    out.indent();
-    kept.chunks(6).for_each(|six| out.code(&format!("{},", six.join(", "))));
-    out.dedent();
-    out.code("];");
+    out.within(&format!("pub const DISPLACEMENTS: [&str; {}] = [", kept.len()), "];", |out| {
+        kept.chunks(6).for_each(|six| out.code(&format!("{},", six.join(", "))))
+    });
     let symbols = robot.symbols();
     if !symbols.is_empty() {
         out.blank();
         out.doc("The table's symbolic link parameters.");
         out.code("#[allow(non_snake_case)]");
         out.code("#[derive(Clone, Copy, Debug, PartialEq)]");
-        out.code("pub struct Parameters<S> {");
-        out.indent();
-        for symbol in symbols {
-            out.doc(&format!("`{}` of the table, {}.", symbol.name, symbol.dimension.unit()));
-            out.code(&format!("pub {}: S,", symbol.name));
-        }
-        out.dedent();
-        out.code("}");
+        out.within("pub struct Parameters<S> {", "}", |out| {
+            for symbol in symbols {
+                out.doc(&format!("`{}` of the table, {}.", symbol.name, symbol.dimension.unit()));
+                out.code(&format!("pub {}: S,", symbol.name));
+            }
+        });
     }
     for form in Form::EACH {
         function(&mut out, robot, displacements, form);
@@ -117,35 +113,33 @@ fn body(
     out.indent();
     arguments.iter().for_each(|argument| out.code(&format!("{argument},")));
     out.dedent();
-    out.code(") -> Pose<S> {");
-    out.indent();
-    if !function.angles.is_empty() {
-        let sums: Vec<String> = function.angles.iter().map(|a| a.sum.print(style)).collect();
-        let [pattern, call] = sin_cos(&function.angles, &sums);
-        out.code(&pattern);
-        out.indent();
-        out.code(&call);
-        out.dedent();
-    }
-    for (name, from) in &inputs {
-        out.code(&format!("let {name} = {};", from.print(style)));
-    }
-    out.code("let zero = S::lit(0.0);");
-    let held = &function.blocks()[0].held;
-    out.code(&format!("let mut out = {};", shapes::zero(held, n)));
-    let place = |_, entry| format!("out{}", shapes::place(held, n, entry));
-    let body: &[Statement] = &function.body;
-    let statements = Statements { body, style, place: &place };
-    match blocks(body, BLOCK).as_slice() {
-        [_] => statements.steps(out, 0..body.len()),
-        blocks => {
-            let blocks = lively(body, blocks.iter().cloned());
-            blocks.iter().for_each(|block| statements.block(out, block));
+    out.within(") -> Pose<S> {", "}", |out| {
+        if !function.angles.is_empty() {
+            let sums: Vec<String> = function.angles.iter().map(|a| a.sum.print(style)).collect();
+            let [pattern, call] = sin_cos(&function.angles, &sums);
+            out.code(&pattern);
+            out.indent();
+            out.code(&call);
+            out.dedent();
         }
-    }
-    out.code("out");
-    out.dedent();
-    out.code("}");
+        for (name, from) in &inputs {
+            out.code(&format!("let {name} = {};", from.print(style)));
+        }
+        out.code("let zero = S::lit(0.0);");
+        let held = &function.blocks()[0].held;
+        out.code(&format!("let mut out = {};", shapes::zero(held, n)));
+        let place = |_, entry| format!("out{}", shapes::place(held, n, entry));
+        let body: &[Statement] = &function.body;
+        let statements = Statements { body, style, place: &place };
+        match blocks(body, BLOCK).as_slice() {
+            [_] => statements.steps(out, 0..body.len()),
+            blocks => {
+                let blocks = lively(body, blocks.iter().cloned());
+                blocks.iter().for_each(|block| statements.block(out, block));
+            }
+        }
+        out.code("out");
+    });
 }
 
 /// Displacements and prismatic joints that are read outside of sines and cosines.

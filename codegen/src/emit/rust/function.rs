@@ -5,8 +5,8 @@ use super::style::Rust;
 use crate::derive::Block;
 use crate::ir::{self, Module};
 
-/// A result of more numbers can also be written where it is to stand. A value that is put there is held together first:
-/// the 360 numbers of a regressor of six joints then take three times the stack on a Cortex-M4F, and four times on an M7;
+/// A result of more numbers can also be written where it is to stand, as several things always can. A value that is put
+/// there is held together first: the 360 numbers of a regressor of six joints then take three times the stack on a Cortex-M4F, and four times on an M7;
 /// the 216 of a Hessian take no more, nor more instructions.
 const LARGE: usize = 256;
 
@@ -53,7 +53,7 @@ impl Function<'_> {
         self.of.blocks().len() > 1
     }
 
-    /// Whether it has a second kernel, which writes its result: that is no struct, and never refused.
+    /// Whether it has a second kernel with the whole text, which writes its result: that is no struct, and never refused.
     pub fn large(&self) -> bool {
         let [Block { entries, .. }] = self.of.blocks() else { return false };
         !self.of.fallible() && entries.len() > LARGE && entries.iter().any(|e| !e.is_zero())

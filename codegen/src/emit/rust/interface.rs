@@ -39,49 +39,41 @@ fn definition(out: &mut Lines, symbolic: bool, extras: &[Extra]) {
     if symbolic {
         out.doc("This arm with numbers for its parameters, as `Kernels`.");
         out.code("#[derive(Clone, Copy, Debug, PartialEq)]");
-        out.code("pub struct Robot<S> {");
-        out.indent();
-        out.doc("What the functions need of the parameters.");
-        out.code("pub constants: Constants<S>,");
-        out.dedent();
-        out.code("}");
+        out.within("pub struct Robot<S> {", "}", |out| {
+            out.doc("What the functions need of the parameters.");
+            out.code("pub constants: Constants<S>,");
+        });
         out.blank();
-        out.code("impl<S: Scalar> Robot<S> {");
-        out.indent();
-        out.doc("The arm with these parameters.");
-        out.code("pub fn new(p: &Parameters<S>) -> Self {");
-        out.indent();
-        out.code("Robot { constants: Constants::new(p) }");
-        out.dedent();
-        out.code("}");
-        out.dedent();
-        out.code("}");
+        out.within("impl<S: Scalar> Robot<S> {", "}", |out| {
+            out.doc("The arm with these parameters.");
+            out.within("pub fn new(p: &Parameters<S>) -> Self {", "}", |out| {
+                out.code("Robot { constants: Constants::new(p) }");
+            });
+        });
     } else if !extras.is_empty() {
         out.doc("This arm as `Kernels`, and what its functions take besides readings and load.");
         out.code("#[derive(Clone, Copy, Debug, PartialEq)]");
-        out.code("pub struct Robot<S> {");
-        out.indent();
-        for extra in extras {
-            out.doc(&format!("{}.", capital(extra.sentence())));
-            match extra {
-                Extra::Sides => out.code("pub sides: [S; N],"),
-                Extra::Warming => out.code("pub warming: S,"),
+        out.within("pub struct Robot<S> {", "}", |out| {
+            for extra in extras {
+                out.doc(&format!("{}.", capital(extra.sentence())));
+                match extra {
+                    Extra::Sides => out.code("pub sides: [S; N],"),
+                    Extra::Warming => out.code("pub warming: S,"),
+                }
             }
-        }
-        out.dedent();
-        out.code("}");
-        out.blank();
-        out.code("impl<S: Scalar> Default for Robot<S> {");
-        out.indent();
-        out.doc("Of joints that came from unknown sides, as warm as when it is as its table says.");
-        let each = extras.iter().map(|extra| match extra {
-            Extra::Sides => "sides: [S::lit(0.0); N]",
-            Extra::Warming => "warming: S::lit(0.0)",
         });
-        let each = each.collect::<Vec<_>>().join(", ");
-        method(out, "fn default() -> Self {", &format!("Robot {{ {each} }}"));
-        out.dedent();
-        out.code("}");
+        out.blank();
+        out.within("impl<S: Scalar> Default for Robot<S> {", "}", |out| {
+            out.doc(
+                "Of joints that came from unknown sides, as warm as when it is as its table says.",
+            );
+            let each = extras.iter().map(|extra| match extra {
+                Extra::Sides => "sides: [S::lit(0.0); N]",
+                Extra::Warming => "warming: S::lit(0.0)",
+            });
+            let each = each.collect::<Vec<_>>().join(", ");
+            method(out, "fn default() -> Self {", &format!("Robot {{ {each} }}"));
+        });
     } else {
         out.doc("This arm as `Kernels`.");
         out.code("#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]");
@@ -156,48 +148,45 @@ fn kernels(
 
 fn arm(out: &mut Lines, target: &str, module: &Module) {
     out.blank();
-    out.code(&format!("impl<S: Scalar> Arm<N, S> for {target} {{"));
-    out.indent();
-    out.code("const NAME: &'static str = NAME;");
-    out.code("const DH: [DhRow; N] = DH;");
-    let limits = module.robot.joints.iter().map(|joint| format!("{:?}", joint.limits));
-    let limits = limits.collect::<Vec<_>>().join(", ");
-    out.code(&format!("const LIMITS: [Option<[f64; 2]>; N] = [{limits}];"));
-    out.code("type Posture = Posture<S>;");
-    let constants = if module.posture.reads_constants() { "&self.constants, " } else { "" };
-    out.code(INLINE);
-    method(
-        out,
-        "fn posture(&self, q: &[S; N]) -> Posture<S> {",
-        &format!("Posture::new({constants}q{})", own(&module.readings.extras)),
-    );
-    out.dedent();
-    out.code("}");
+    out.within(&format!("impl<S: Scalar> Arm<N, S> for {target} {{"), "}", |out| {
+        out.code("const NAME: &'static str = NAME;");
+        out.code("const DH: [DhRow; N] = DH;");
+        let limits = module.robot.joints.iter().map(|joint| format!("{:?}", joint.limits));
+        let limits = limits.collect::<Vec<_>>().join(", ");
+        out.code(&format!("const LIMITS: [Option<[f64; 2]>; N] = [{limits}];"));
+        out.code("type Posture = Posture<S>;");
+        let constants = if module.posture.reads_constants() { "&self.constants, " } else { "" };
+        out.code(INLINE);
+        method(
+            out,
+            "fn posture(&self, q: &[S; N]) -> Posture<S> {",
+            &format!("Posture::new({constants}q{})", own(&module.readings.extras)),
+        );
+    });
 }
 
 fn has(out: &mut Lines, target: &str, (output, n): (Output, usize), symbolic: bool) {
     out.blank();
-    out.code(&format!("impl<S: Scalar> has::{output:?}<N, S> for {target} {{"));
-    out.indent();
-    let (name, mut ty) = (output.name(), ty(&Held::Output(output), n));
-    if matches!(output.columns(), Side::Entries | Side::Moments) {
-        out.code(&format!("type Columns = {ty};"));
-        ty = "Self::Columns".to_string();
-    }
-    if output.is_fallible() {
-        ty = format!("Result<{ty}, Unstable>");
-    }
-    let constants = if symbolic { "&self.constants, " } else { "" };
-    let parameters: String = output
-        .beside()
-        .map(|input| format!(", {}", parameter(input.name(), Some(input.side().count(n)))))
-        .collect();
-    let arguments: String = output.beside().map(|input| format!(", {}", input.name())).collect();
-    out.code(INLINE);
-    let head = format!("fn {name}(&self, posture: &Posture<S>{parameters}) -> {ty} {{");
-    method(out, &head, &format!("{name}::given({constants}posture{arguments})"));
-    out.dedent();
-    out.code("}");
+    out.within(&format!("impl<S: Scalar> has::{output:?}<N, S> for {target} {{"), "}", |out| {
+        let (name, mut ty) = (output.name(), ty(&Held::Output(output), n));
+        if matches!(output.columns(), Side::Entries | Side::Moments) {
+            out.code(&format!("type Columns = {ty};"));
+            ty = "Self::Columns".to_string();
+        }
+        if output.is_fallible() {
+            ty = format!("Result<{ty}, Unstable>");
+        }
+        let constants = if symbolic { "&self.constants, " } else { "" };
+        let parameters: String = output
+            .beside()
+            .map(|input| format!(", {}", parameter(input.name(), Some(input.side().count(n)))))
+            .collect();
+        let arguments: String =
+            output.beside().map(|input| format!(", {}", input.name())).collect();
+        out.code(INLINE);
+        let head = format!("fn {name}(&self, posture: &Posture<S>{parameters}) -> {ty} {{");
+        method(out, &head, &format!("{name}::given({constants}posture{arguments})"));
+    });
 }
 
 /// The inverse kinematics by the traits' names.
@@ -206,39 +195,40 @@ fn inverse(out: &mut Lines, target: &str, module: &Module, form: ClosedForm) {
     let given = own(&module.readings.extras);
     joint_values(out, target, module);
     out.blank();
-    out.code(&format!("impl<S: Scalar> Inverse<N, {BRANCHES}, S> for {target} {{"));
-    out.indent();
-    let Steps { unloaded, loaded, readings } = steps(module.robot, form);
-    out.code(&format!(
-        "const STEPS: Steps = Steps {{ unloaded: {unloaded}, loaded: {loaded}, readings: {readings} }};"
-    ));
-    let head = |name: &str| {
-        format!("fn {name}(&self, pose: &Pose<S>, near: &[S; N]) -> Solutions<S, N, {BRANCHES}> {{")
-    };
-    out.code(&head(CLOSED_FORM));
-    out.indent();
-    let exact = module.functions().any(|function| function.name() == INVERSE_KINEMATICS);
-    let (name, structure) = match exact {
-        true => (INVERSE_KINEMATICS, "InverseKinematics"),
-        false => (CLOSED_FORM, "ClosedForm"),
-    };
-    out.code("let columns = pose.columns();");
-    out.code(
-        "let [target] = columns.as_flattened().as_chunks().0 else { ::core::unreachable!() };",
-    );
-    out.code(&format!(
-        "let {name}::{structure} {{ q, distance, tilt }} = {name}({constants}near{given}, target);"
-    ));
-    out.code("Solutions { q, distance, tilt }");
-    out.dedent();
-    out.code("}");
-    let whole = match exact {
-        true => "self.closed_form(pose, near)",
-        false => "unloaded(self, pose, near)",
-    };
-    method(out, &head(INVERSE_KINEMATICS), whole);
-    out.dedent();
-    out.code("}");
+    out.within(&format!("impl<S: Scalar> Inverse<N, {BRANCHES}, S> for {target} {{"), "}", |out| {
+        let Steps { unloaded, loaded, readings } = steps(module.robot, form);
+        out.code(&format!(
+            "const STEPS: Steps = Steps {{ unloaded: {unloaded}, loaded: {loaded}, \
+             readings: {readings} }};"
+        ));
+        let head = |name: &str| {
+            format!(
+                "fn {name}(&self, pose: &Pose<S>, near: &[S; N]) -> Solutions<S, N, {BRANCHES}> {{"
+            )
+        };
+        let exact = module.functions().any(|function| function.name() == INVERSE_KINEMATICS);
+        let (name, structure) = match exact {
+            true => (INVERSE_KINEMATICS, "InverseKinematics"),
+            false => (CLOSED_FORM, "ClosedForm"),
+        };
+        out.within(&head(CLOSED_FORM), "}", |out| {
+            out.code("let columns = pose.columns();");
+            out.code(
+                "let [target] = columns.as_flattened().as_chunks().0 else { \
+                 ::core::unreachable!() };",
+            );
+            out.code(&format!(
+                "let {name}::{structure} {{ q, distance, tilt }} = \
+                 {name}({constants}near{given}, target);"
+            ));
+            out.code("Solutions { q, distance, tilt }");
+        });
+        let whole = match exact {
+            true => "self.closed_form(pose, near)",
+            false => "unloaded(self, pose, near)",
+        };
+        method(out, &head(INVERSE_KINEMATICS), whole);
+    });
     if module.robot.has_set_points() {
         elastic(out, target, (module, constants));
     }
@@ -251,22 +241,20 @@ fn joint_values(out: &mut Lines, target: &str, module: &Module) {
         return out.code(&format!("impl<S: Scalar> JointValues<N, S> for {target} {{}}"));
     }
     let given = own(&module.readings.extras);
-    out.code(&format!("impl<S: Scalar> JointValues<N, S> for {target} {{"));
-    out.indent();
-    out.code(INLINE);
-    method(
-        out,
-        "fn joints(&self, readings: &[S; N]) -> [S; N] {",
-        &format!("joints(readings{given})"),
-    );
-    out.code(INLINE);
-    method(
-        out,
-        "fn at_joints(&self, joints: &[S; N]) -> Posture<S> {",
-        &format!("Posture::at_joints(joints{given})"),
-    );
-    out.dedent();
-    out.code("}");
+    out.within(&format!("impl<S: Scalar> JointValues<N, S> for {target} {{"), "}", |out| {
+        out.code(INLINE);
+        method(
+            out,
+            "fn joints(&self, readings: &[S; N]) -> [S; N] {",
+            &format!("joints(readings{given})"),
+        );
+        out.code(INLINE);
+        method(
+            out,
+            "fn at_joints(&self, joints: &[S; N]) -> Posture<S> {",
+            &format!("Posture::at_joints(joints{given})"),
+        );
+    });
 }
 
 /// What gives in the arm at rest.
@@ -305,9 +293,5 @@ fn elastic(out: &mut Lines, target: &str, (module, constants): (&Module, &str)) 
 }
 
 fn method(out: &mut Lines, signature: &str, body: &str) {
-    out.code(signature);
-    out.indent();
-    out.code(body);
-    out.dedent();
-    out.code("}");
+    out.within(signature, "}", |out| out.code(body));
 }

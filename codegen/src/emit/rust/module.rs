@@ -37,33 +37,41 @@ impl Function<'_> {
         parameters.push(format!("q: &[S; {n}]{extras}"));
         parameters.extend(self.of.arguments.iter().map(|a| parameter(&a.name, a.size)));
         let (name, returned) = (self.of.name(), self.returned(false));
-        out.code(&format!("pub fn {name}<S: Scalar>({}) -> {returned} {{", parameters.join(", ")));
-        out.indent();
-        let names: String =
-            self.module.readings.extras.iter().map(|e| format!(", {}", e.name())).collect();
-        let posture = if all {
-            format!("Posture::new({}q{names})", if offsets { "constants, " } else { "" })
-        } else {
-            let constants = if offsets { "constants: &Constants<S>, " } else { "" };
-            let q = if self.of.reads.is_empty() { "_q" } else { "q" };
-            let q = format!("{q}: &[S; {n}]{extras}");
-            if !names.is_empty() {
-                // What a function needs of the posture may depend on neither.
-                out.code("#[allow(unused_variables)]");
-            }
-            out.code(INLINE);
-            out.code(&format!("fn posture<S: Scalar>({constants}{q}) -> Posture<S> {{"));
-            out.indent();
-            values(out, needed, (&self.module.readings, self.style), true);
-            let fields = needed.fields().into_iter().chain(["..Posture::unused()".into()]);
-            out.code(&format!("Posture {{ {} }}", fields.collect::<Vec<_>>().join(", ")));
-            out.dedent();
-            out.code("}");
-            format!("posture({}q{names})", if offsets { "constants, " } else { "" })
-        };
-        out.code(&format!("{name}::given({})", self.arguments(&format!("&{posture}"))));
-        out.dedent();
-        out.code("}");
+        out.within(
+            &format!("pub fn {name}<S: Scalar>({}) -> {returned} {{", parameters.join(", ")),
+            "}",
+            |out| {
+                let names: String =
+                    self.module.readings.extras.iter().map(|e| format!(", {}", e.name())).collect();
+                let posture = if all {
+                    format!("Posture::new({}q{names})", if offsets { "constants, " } else { "" })
+                } else {
+                    let constants = if offsets { "constants: &Constants<S>, " } else { "" };
+                    let q = if self.of.reads.is_empty() { "_q" } else { "q" };
+                    let q = format!("{q}: &[S; {n}]{extras}");
+                    if !names.is_empty() {
+                        // What a function needs of the posture may depend on neither.
+                        out.code("#[allow(unused_variables)]");
+                    }
+                    out.code(INLINE);
+                    out.within(
+                        &format!("fn posture<S: Scalar>({constants}{q}) -> Posture<S> {{"),
+                        "}",
+                        |out| {
+                            values(out, needed, (&self.module.readings, self.style), true);
+                            let fields =
+                                needed.fields().into_iter().chain(["..Posture::unused()".into()]);
+                            out.code(&format!(
+                                "Posture {{ {} }}",
+                                fields.collect::<Vec<_>>().join(", ")
+                            ));
+                        },
+                    );
+                    format!("posture({}q{names})", if offsets { "constants, " } else { "" })
+                };
+                out.code(&format!("{name}::given({})", self.arguments(&format!("&{posture}"))));
+            },
+        );
     }
 
     /// What the function returns: of one's own its sentence; of an output or a result its sentence, its shape with
@@ -95,11 +103,17 @@ impl Function<'_> {
         if self.of.fallible() {
             out.doc("");
             out.doc("# Errors");
-            let motion = self.of.outputs().any(|output| output.is_of_motion());
-            out.doc(match motion {
-                true => "`Unstable` where a joint moves no mass: its acceleration is then not determined.",
-                false => "`Unstable` where the loaded arm has no stable equilibrium.",
-            });
+            out.doc(self.refusal());
+        }
+    }
+
+    /// When there is no result.
+    pub fn refusal(&self) -> &'static str {
+        match self.of.outputs().any(|output| output.is_of_motion()) {
+            true => {
+                "`Unstable` where a joint moves no mass: its acceleration is then not determined."
+            }
+            false => "`Unstable` where the loaded arm has no stable equilibrium.",
         }
     }
 
@@ -162,32 +176,30 @@ impl Function<'_> {
 
     fn module(&self, out: &mut Lines, options: &RustOptions) {
         out.doc(&format!("[`{0}`](fn@{0}) in parts, with its figures.", self.of.name()));
-        out.code(&format!("pub mod {} {{", self.of.name()));
-        out.indent();
-        let mut imports = vec!["Ops"];
-        if self.of.outputs().any(|o| matches!(o.form(), Form::Pose | Form::Poses)) {
-            imports.push("Pose");
-        }
-        imports.push("Scalar");
-        if self.of.fallible() {
-            imports.push("Unstable");
-        }
-        if self.of.solves().any(|solve| solve.margin.is_some()) {
-            imports.push("margin");
-        }
-        if self.of.solves().next().is_some() {
-            imports.push(self.style.solve());
-        }
-        out.code(&format!("use {}::{{{}}};", options.kernels, imports.join(", ")));
-        out.code("use super::Posture;");
-        self.figures(out);
-        if self.fused() {
-            self.results(out);
-        }
-        out.blank();
-        self.kernels(out);
-        out.dedent();
-        out.code("}");
+        out.within(&format!("pub mod {} {{", self.of.name()), "}", |out| {
+            let mut imports = vec!["Ops"];
+            if self.of.outputs().any(|o| matches!(o.form(), Form::Pose | Form::Poses)) {
+                imports.push("Pose");
+            }
+            imports.push("Scalar");
+            if self.of.fallible() {
+                imports.push("Unstable");
+            }
+            if self.of.solves().any(|solve| solve.margin.is_some()) {
+                imports.push("margin");
+            }
+            if self.of.solves().next().is_some() {
+                imports.push(self.style.solve());
+            }
+            out.code(&format!("use {}::{{{}}};", options.kernels, imports.join(", ")));
+            out.code("use super::Posture;");
+            self.figures(out);
+            if self.fused() {
+                self.results(out);
+            }
+            out.blank();
+            self.kernels(out);
+        });
     }
 
     fn figures(&self, out: &mut Lines) {
@@ -205,14 +217,13 @@ impl Function<'_> {
         let (rows, columns) = block.held.shape(self.of.program.dof);
         out.blank();
         out.doc("Entries that are not structurally zero; `[column][row]`.");
-        out.code(&format!("pub const SPARSITY: [[bool; {rows}]; {columns}] = ["));
-        out.indent();
-        for column in block.entries.chunks(rows) {
-            let flags: Vec<String> = column.iter().map(|e| (!e.is_zero()).to_string()).collect();
-            out.code(&format!("[{}],", flags.join(", ")));
-        }
-        out.dedent();
-        out.code("];");
+        out.within(&format!("pub const SPARSITY: [[bool; {rows}]; {columns}] = ["), "];", |out| {
+            for column in block.entries.chunks(rows) {
+                let flags: Vec<String> =
+                    column.iter().map(|e| (!e.is_zero()).to_string()).collect();
+                out.code(&format!("[{}],", flags.join(", ")));
+            }
+        });
     }
 
     /// The struct of everything that the function computes.
@@ -221,18 +232,24 @@ impl Function<'_> {
         out.blank();
         out.doc(&format!("Everything that [`{0}`](fn@super::{0}) computes.", self.of.name()));
         out.code("#[derive(Clone, Copy, Debug, PartialEq)]");
-        out.code(&format!("pub struct {}<S> {{", self.structure()));
-        out.indent();
-        for Block { held, .. } in self.of.blocks() {
-            let sentences = docs(held, n, shapes::ORDER);
-            out.doc(&sentences[0]);
-            if held.output().is_none() {
-                out.doc("");
-                out.doc(&sentences[1]);
+        out.within(&format!("pub struct {}<S> {{", self.structure()), "}", |out| {
+            for Block { held, .. } in self.of.blocks() {
+                let sentences = docs(held, n, shapes::ORDER);
+                out.doc(&sentences[0]);
+                if held.output().is_none() {
+                    out.doc("");
+                    out.doc(&sentences[1]);
+                }
+                out.code(&format!("pub {}: {},", held.name(), shapes::ty(held, n)));
             }
-            out.code(&format!("pub {}: {},", held.name(), shapes::ty(held, n)));
-        }
-        out.dedent();
-        out.code("}");
+        });
+        out.blank();
+        out.within(&format!("impl<S: Scalar> {}<S> {{", self.structure()), "}", |out| {
+            out.doc("Every number zero: a place for `write`.");
+            out.within("pub fn zero() -> Self {", "}", |out| {
+                out.code("let zero = S::lit(0.0);");
+                out.code(&self.zero());
+            });
+        });
     }
 }

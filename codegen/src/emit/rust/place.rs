@@ -19,23 +19,19 @@ pub(super) fn module(
     let mut out = Lines::at(0);
     out.blank();
     out.doc("The arm at its named frames and markers; the posture is the arm's.");
-    out.code("pub mod at {");
-    out.indent();
-    for (k, of) in places.iter().enumerate() {
-        if k > 0 {
-            out.blank();
+    out.within("pub mod at {", "}", |out| {
+        for (k, of) in places.iter().enumerate() {
+            if k > 0 {
+                out.blank();
+            }
+            let place = of.place.as_deref().unwrap_or_default();
+            docs(out, module.robot, place);
+            out.within(&format!("pub mod {place} {{"), "}", |out| {
+                imports(out, module, options, of);
+                out.text.push_str(&printed(of, out.depth));
+            });
         }
-        let place = of.place.as_deref().unwrap_or_default();
-        docs(&mut out, module.robot, place);
-        out.code(&format!("pub mod {place} {{"));
-        out.indent();
-        imports(&mut out, module, options, of);
-        out.text.push_str(&printed(of, out.depth));
-        out.dedent();
-        out.code("}");
-    }
-    out.dedent();
-    out.code("}");
+    });
     out.finish()
 }
 

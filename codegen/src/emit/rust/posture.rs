@@ -20,63 +20,54 @@ pub(super) fn module(module: &Module, style: &Rust) -> String {
     out.blank();
     out.doc("The joint values as the kernels need them: sines, cosines, displacements.");
     out.code("#[derive(Clone, Copy, Debug, PartialEq)]");
-    out.code("pub struct Posture<S> {");
-    out.indent();
-    for angle in &posture.angles {
-        for field in angle.needed() {
-            let word = if field.starts_with('s') { "sin" } else { "cos" };
-            out.doc(&format!("`{word}({})`", angle.sum.print(style)));
-            out.code(&format!("pub {field}: S,"));
+    out.within("pub struct Posture<S> {", "}", |out| {
+        for angle in &posture.angles {
+            for field in angle.needed() {
+                let word = if field.starts_with('s') { "sin" } else { "cos" };
+                out.doc(&format!("`{word}({})`", angle.sum.print(style)));
+                out.code(&format!("pub {field}: S,"));
+            }
         }
-    }
-    for plain in &posture.plain {
-        out.doc(&format!("`{}`, {}", plain.source().print(style), plain.meaning(robot)));
-        out.code(&format!("pub {}: S,", plain.field()));
-    }
-    out.dedent();
-    out.code("}");
+        for plain in &posture.plain {
+            out.doc(&format!("`{}`, {}", plain.source().print(style), plain.meaning(robot)));
+            out.code(&format!("pub {}: S,", plain.field()));
+        }
+    });
     out.blank();
-    out.code("impl<S: Scalar> Posture<S> {");
-    out.indent();
-    out.doc("All sines and cosines at once.");
-    let constants = if posture.reads_constants() { "constants: &Constants<S>, " } else { "" };
-    out.code(INLINE);
-    let extras = parameters(stage, n).concat();
-    out.code(&format!("pub fn new({constants}q: &[S; {n}]{extras}) -> Self {{"));
-    out.indent();
-    let apart = stage.moves && robot.inverse_kinematics.is_some();
-    if apart {
-        let extras: String = stage.extras.iter().map(|e| format!(", {}", e.name())).collect();
-        out.code(&format!("Self::at_joints(&joints(q{extras}){extras})"));
-        out.dedent();
-        out.code("}");
-        out.blank();
-        out.doc("The same at joint values, not at readings.");
-        out.code("#[allow(unused_variables)]");
+    out.within("impl<S: Scalar> Posture<S> {", "}", |out| {
+        out.doc("All sines and cosines at once.");
+        let constants = if posture.reads_constants() { "constants: &Constants<S>, " } else { "" };
         out.code(INLINE);
         let extras = parameters(stage, n).concat();
-        out.code(&format!("pub fn at_joints(q: &[S; {n}]{extras}) -> Self {{"));
-        out.indent();
-    }
-    values(&mut out, posture, (stage, style), !apart);
-    out.code(&format!("Posture {{ {} }}", posture.fields().join(", ")));
-    out.dedent();
-    out.code("}");
-    let fields = posture.fields();
-    if module.functions().any(|function| function.reads.len() < fields.len()) {
-        out.blank();
-        out.doc("Zeros, in the place of what a kernel does not need.");
-        out.code(INLINE);
-        out.code("fn unused() -> Self {");
-        out.indent();
-        out.code("let zero = S::lit(0.0);");
-        let zeros: Vec<String> = fields.iter().map(|field| format!("{field}: zero")).collect();
-        out.code(&format!("Posture {{ {} }}", zeros.join(", ")));
-        out.dedent();
-        out.code("}");
-    }
-    out.dedent();
-    out.code("}");
+        let mut head = format!("pub fn new({constants}q: &[S; {n}]{extras}) -> Self {{");
+        let apart = stage.moves && robot.inverse_kinematics.is_some();
+        if apart {
+            let names: String = stage.extras.iter().map(|e| format!(", {}", e.name())).collect();
+            let joints = format!("Self::at_joints(&joints(q{names}){names})");
+            out.within(&head, "}", |out| out.code(&joints));
+            out.blank();
+            out.doc("The same at joint values, not at readings.");
+            out.code("#[allow(unused_variables)]");
+            out.code(INLINE);
+            head = format!("pub fn at_joints(q: &[S; {n}]{extras}) -> Self {{");
+        }
+        out.within(&head, "}", |out| {
+            values(out, posture, (stage, style), !apart);
+            out.code(&format!("Posture {{ {} }}", posture.fields().join(", ")));
+        });
+        let fields = posture.fields();
+        if module.functions().any(|function| function.reads.len() < fields.len()) {
+            out.blank();
+            out.doc("Zeros, in the place of what a kernel does not need.");
+            out.code(INLINE);
+            out.within("fn unused() -> Self {", "}", |out| {
+                out.code("let zero = S::lit(0.0);");
+                let zeros: Vec<String> =
+                    fields.iter().map(|field| format!("{field}: zero")).collect();
+                out.code(&format!("Posture {{ {} }}", zeros.join(", ")));
+            });
+        }
+    });
     out.finish()
 }
 
@@ -111,23 +102,23 @@ fn joints(out: &mut Lines, stage: &Readings, style: &Rust, n: usize) {
     let extras = stage.extras.iter().zip(parameters(stage, n));
     let extras = extras.map(|(e, text)| text.replacen(", ", &format!(", {}", unread(e)), 1));
     let extras: String = extras.collect();
-    out.code(&format!("pub fn joints<S: Scalar>(q: &[S; {n}]{extras}) -> [S; {n}] {{"));
-    out.indent();
-    if !stage.angles.is_empty() {
-        let sums: Vec<String> = stage.angles.iter().map(|a| a.sum.print(style)).collect();
-        let [pattern, call] = sin_cos(&stage.angles, &sums);
-        out.code(&pattern);
-        out.code(&format!("    {call}"));
-    }
-    out.code("[");
-    out.indent();
-    for joint in &stage.joints {
-        out.code(&format!("{},", joint.print(style)));
-    }
-    out.dedent();
-    out.code("]");
-    out.dedent();
-    out.code("}");
+    out.within(
+        &format!("pub fn joints<S: Scalar>(q: &[S; {n}]{extras}) -> [S; {n}] {{"),
+        "}",
+        |out| {
+            if !stage.angles.is_empty() {
+                let sums: Vec<String> = stage.angles.iter().map(|a| a.sum.print(style)).collect();
+                let [pattern, call] = sin_cos(&stage.angles, &sums);
+                out.code(&pattern);
+                out.code(&format!("    {call}"));
+            }
+            out.within("[", "]", |out| {
+                for joint in &stage.joints {
+                    out.code(&format!("{},", joint.print(style)));
+                }
+            });
+        },
+    );
 }
 
 /// The documentation of readings and of what is given beside them.

@@ -3,6 +3,7 @@
 use super::style::Rust;
 use crate::emit::lines::Lines;
 use crate::ir::{Angle, Block, Name, Solve, Statement, Term};
+use crate::number::Number;
 
 /// Names in one scope; rustc's recursion over a scope's statements overflows at a few thousand.
 pub(super) const BLOCK: usize = 256;
@@ -57,20 +58,19 @@ impl Statements<'_> {
 
     fn solve(&self, out: &mut Lines, solve: &Solve) {
         let (n, leading) = (solve.right.len(), solve.leading);
-        out.code("let stiffness = [");
-        out.indent();
-        for column in solve.matrix.chunks(n) {
-            out.code(&format!("[{}],", self.all(column)));
-        }
-        out.dedent();
-        out.code("];");
+        out.within("let stiffness = [", "];", |out| {
+            for column in solve.matrix.chunks(n) {
+                out.code(&format!("[{}],", self.all(column)));
+            }
+        });
         out.code(&format!("let load = [{}];", self.all(&solve.right)));
         let margin = match solve.margin {
             Some(most) => {
                 let [force, moment] = most.map(|most| self.print(&Term::Number(most)));
                 format!("margin(wrench, [{force}, {moment}])")
             }
-            None => "zero".to_string(),
+            // The pivots of a symmetric matrix are themselves the test.
+            None => self.print(&Term::Number(Number::integer(i128::from(solve.of_motion)))),
         };
         let names = solve.unknowns.iter().map(|name| name.as_deref().unwrap_or("_"));
         let names = names.collect::<Vec<_>>().join(", ");

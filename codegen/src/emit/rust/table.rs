@@ -85,28 +85,26 @@ pub(super) fn header(module: &Module, alone: bool, options: &RustOptions) -> Str
         out.doc(&world);
     }
     beyond(&mut out, robot);
-    out.code("pub const DH: [DhRow; N] = [");
-    out.indent();
-    for joint in &robot.joints {
-        let motion = match joint.motion {
-            Motion::Revolute => "Revolute",
-            Motion::Prismatic => "Prismatic",
-        };
-        let stiffness = joint.stiffness.as_ref().map_or("rigid".to_string(), value);
-        out.code(&format!(
-            "DhRow {{ joint: {:?}, motion: Motion::{motion}, theta: {:?}, d: {:?}, a: {:?}, alpha: {:?}, \
-             beta: {:?}, stiffness: {:?} }},",
-            joint.name,
-            angle(&joint.theta),
-            value(&joint.d),
-            value(&joint.a),
-            angle(&joint.alpha),
-            angle(&joint.beta),
-            stiffness,
-        ));
-    }
-    out.dedent();
-    out.code("];");
+    out.within("pub const DH: [DhRow; N] = [", "];", |out| {
+        for joint in &robot.joints {
+            let motion = match joint.motion {
+                Motion::Revolute => "Revolute",
+                Motion::Prismatic => "Prismatic",
+            };
+            let stiffness = joint.stiffness.as_ref().map_or("rigid".to_string(), value);
+            out.code(&format!(
+                "DhRow {{ joint: {:?}, motion: Motion::{motion}, theta: {:?}, d: {:?}, a: {:?}, \
+             alpha: {:?}, beta: {:?}, stiffness: {:?} }},",
+                joint.name,
+                angle(&joint.theta),
+                value(&joint.d),
+                value(&joint.a),
+                angle(&joint.alpha),
+                angle(&joint.beta),
+                stiffness,
+            ));
+        }
+    });
     out.finish()
 }
 
@@ -156,43 +154,33 @@ pub(super) fn parameters(robot: &Robot, constants: &Constants) -> String {
     out.doc("The table's symbolic link parameters.");
     out.code("#[allow(non_snake_case)]");
     out.code("#[derive(Clone, Copy, Debug, PartialEq)]");
-    out.code("pub struct Parameters<S> {");
-    out.indent();
-    for symbol in robot.symbols() {
-        out.doc(&format!("`{}` of the table, {}.", symbol.name, symbol.dimension.unit()));
-        out.code(&format!("pub {}: S,", symbol.name));
-    }
-    out.dedent();
-    out.code("}");
+    out.within("pub struct Parameters<S> {", "}", |out| {
+        for symbol in robot.symbols() {
+            out.doc(&format!("`{}` of the table, {}.", symbol.name, symbol.dimension.unit()));
+            out.code(&format!("pub {}: S,", symbol.name));
+        }
+    });
     out.blank();
     out.doc("What the functions need of the parameters, worked out once.");
     out.code("#[allow(non_snake_case)]");
     out.code("#[derive(Clone, Copy, Debug, PartialEq)]");
-    out.code("pub struct Constants<S> {");
-    out.indent();
-    for field in constants.fields() {
-        out.doc(&format!("`{}`", field.value.print(&style)));
-        out.code(&format!("pub {}: S,", field.name));
-    }
-    out.dedent();
-    out.code("}");
+    out.within("pub struct Constants<S> {", "}", |out| {
+        for field in constants.fields() {
+            out.doc(&format!("`{}`", field.value.print(&style)));
+            out.code(&format!("pub {}: S,", field.name));
+        }
+    });
     out.blank();
-    out.code("impl<S: Scalar> Constants<S> {");
-    out.indent();
-    out.doc("Works the constants out.");
-    out.code("pub fn new(p: &Parameters<S>) -> Self {");
-    out.indent();
-    out.code("Constants {");
-    out.indent();
-    for field in constants.fields() {
-        out.code(&format!("{}: {},", field.name, field.value.print(&style)));
-    }
-    out.dedent();
-    out.code("}");
-    out.dedent();
-    out.code("}");
-    out.dedent();
-    out.code("}");
+    out.within("impl<S: Scalar> Constants<S> {", "}", |out| {
+        out.doc("Works the constants out.");
+        out.within("pub fn new(p: &Parameters<S>) -> Self {", "}", |out| {
+            out.within("Constants {", "}", |out| {
+                for field in constants.fields() {
+                    out.code(&format!("{}: {},", field.name, field.value.print(&style)));
+                }
+            });
+        });
+    });
     out.finish()
 }
 
@@ -202,37 +190,33 @@ pub(super) fn numeric(out: &mut Lines, robot: &Robot, (generic, target): (&str, 
     let three = |values: &[Value; 3]| format!("[{}]", values.each_ref().map(number).join(", "));
     let radians = |angle: &Angle| format!("{:?}", angle.radians().unwrap_or_default());
     out.blank();
-    out.code(&format!("impl{generic} Numeric<N> for {target} {{"));
-    out.indent();
-    out.code(&format!("const CONVENTION: Convention = Convention::{:?};", robot.convention));
-    out.code(&format!("const GRAVITY: [f64; 3] = {};", three(&robot.gravity)));
-    out.code("const ROWS: [Row; N] = [");
-    out.indent();
-    for joint in &robot.joints {
-        let stiffness = joint.stiffness.as_ref();
-        let stiffness = stiffness.map_or("None".to_string(), |k| format!("Some({})", number(k)));
-        out.code(&format!(
-            "Row {{ theta: {}, d: {}, a: {}, alpha: {}, stiffness: {stiffness}, mass: {}, com: {} }},",
-            radians(&joint.theta),
-            number(&joint.d),
-            number(&joint.a),
-            radians(&joint.alpha),
-            joint.mass.as_ref().map_or("0.0".to_string(), number),
-            three(&joint.com),
-        ));
-    }
-    out.dedent();
-    out.code("];");
-    out.dedent();
-    out.code("}");
+    out.within(&format!("impl{generic} Numeric<N> for {target} {{"), "}", |out| {
+        out.code(&format!("const CONVENTION: Convention = Convention::{:?};", robot.convention));
+        out.code(&format!("const GRAVITY: [f64; 3] = {};", three(&robot.gravity)));
+        out.within("const ROWS: [Row; N] = [", "];", |out| {
+            for joint in &robot.joints {
+                let stiffness = joint.stiffness.as_ref();
+                let stiffness =
+                    stiffness.map_or("None".to_string(), |k| format!("Some({})", number(k)));
+                out.code(&format!(
+                    "Row {{ theta: {}, d: {}, a: {}, alpha: {}, stiffness: {stiffness}, mass: {}, \
+                     com: {} }},",
+                    radians(&joint.theta),
+                    number(&joint.d),
+                    number(&joint.a),
+                    radians(&joint.alpha),
+                    joint.mass.as_ref().map_or("0.0".to_string(), number),
+                    three(&joint.com),
+                ));
+            }
+        });
+    });
 }
 
 /// The outputs of a module.
 pub(super) fn listed(out: &mut Lines, outputs: &[Output]) {
     out.doc("What the module computes.");
-    out.code(&format!("pub const OUTPUTS: [Output; {}] = [", outputs.len()));
-    out.indent();
-    outputs.iter().for_each(|output| out.code(&format!("Output::{output:?},")));
-    out.dedent();
-    out.code("];");
+    out.within(&format!("pub const OUTPUTS: [Output; {}] = [", outputs.len()), "];", |out| {
+        outputs.iter().for_each(|output| out.code(&format!("Output::{output:?},")))
+    });
 }

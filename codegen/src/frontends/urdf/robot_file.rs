@@ -3,7 +3,6 @@
 use super::angle::{angle, value};
 use super::chain::{Chain, Step};
 use super::table::Table;
-use crate::robot::beyond::Beyond;
 use crate::robot::space::Frame;
 use crate::robot::{Convention, Drive, Frame as Fixed, Joint, Robot, Value};
 
@@ -15,18 +14,10 @@ pub fn robot_file(chain: &Chain, table: &Table) -> Robot {
         name: chain.name.clone(),
         convention: Convention::Modified,
         gravity: gravity.map(value),
-        torque_side: None,
         joints,
         base: fixed(&table.base),
         tool: fixed(&table.tool),
-        frames: Vec::new(),
-        markers: Vec::new(),
-        effects: Vec::new(),
-        beyond: Beyond::default(),
-        payloads: Vec::new(),
-        outputs: Vec::new(),
-        at: Vec::new(),
-        inverse_kinematics: None,
+        ..Robot::default()
     }
 }
 
@@ -53,7 +44,6 @@ fn joint(chain: &Chain, table: &Table, k: usize) -> Joint {
         a: length(row.a),
         alpha: angle(row.alpha),
         beta: angle(row.beta),
-        stiffness: None,
         mass: centre.map(|_| value(step.lump.mass)),
         com: com.map(length),
         inertia: tensor.map(|entries| entries.map(value)),
@@ -63,8 +53,7 @@ fn joint(chain: &Chain, table: &Table, k: usize) -> Joint {
             ..Drive::default()
         },
         limits: step.limits,
-        source: None,
-        beam: None,
+        ..Joint::default()
     }
 }
 
