@@ -85,7 +85,7 @@ fn an_identifier_stands_in_its_own_file_alone() {
             "BaseFrame" | "ToolFrame" | "Geometry" => {
                 Some(root.join("gap/src/diagnose/options.rs"))
             }
-            "BaseCompliance" => Some(root.join("cli/src/identify/written.rs")),
+            "BaseCompliance" => Some(root.join("cli/src/identify/corrected.rs")),
             "JointOffset" | "LinkGeometry" => Some(of_room.join("geometry.rs")),
             _ => None,
         };

@@ -4,7 +4,7 @@ use stiffarm_codegen::robot::beyond::EffectError;
 use stiffarm_codegen::robot::{Effect, Located, Robot, Spot};
 use stiffarm_gap::corrected::{FoldError, folded};
 use stiffarm_gap::effects::{Catalogue, Depends, Known};
-use stiffarm_gap::log::known::is_of_motion;
+use stiffarm_gap::log::known::{is_of_motion, is_of_torques};
 use stiffarm_gap::whole::{Situation, Whole};
 use stiffarm_kernels::generic::Arm;
 use stiffarm_kernels::{Input, Output};
@@ -60,7 +60,10 @@ impl Source {
     pub fn refuse_motion(&self, outputs: &[Output]) -> Result<(), Failure> {
         let drives = [Input::Accelerations, Input::Torques];
         let moves = |o: &&Output| o.inputs().iter().any(|input| drives.contains(input));
-        let (Some(effect), Some(output)) = (self.motion.first(), outputs.iter().find(moves)) else {
+        // What acts at rest and no torque feels (backlash) is in the pose.
+        let is_felt = |e: &&Effect| !self.file.effects.contains(e) || is_of_torques(e);
+        let felt = self.motion.iter().find(is_felt);
+        let (Some(effect), Some(output)) = (felt, outputs.iter().find(moves)) else {
             return Ok(());
         };
         let (id, place) = (effect.id.value.replace('_', " "), &effect.place.value);

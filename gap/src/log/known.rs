@@ -16,6 +16,11 @@ pub fn is_of_motion(table: &Table) -> bool {
     effects(table).next().is_some() && spot(table, MOST).is_some()
 }
 
+/// Whether a table is of what drives the joints.
+pub fn is_of_torques(table: &Table) -> bool {
+    effects(table).any(|effect| effect.domain() == Domain::Torque)
+}
+
 /// More joints no table has.
 const MOST: usize = 64;
 

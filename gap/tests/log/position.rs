@@ -76,7 +76,7 @@ fn delay_droop_and_play_are_told_apart() {
     for (effect, place, expected, part) in [
         ("latency", "the interface", DELAY, 0.02),
         ("servo_droop", "joint 1", COMPLIANCE, 0.02),
-        ("backlash", "joint 2", HALF_WIDTH, 0.04),
+        ("backlash", "joint 2", 2.0 * HALF_WIDTH, 0.04),
     ] {
         let value = value(effect, place);
         assert!((value / expected - 1.0).abs() < part, "{effect}: {value}: {found:#?}");

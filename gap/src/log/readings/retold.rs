@@ -86,17 +86,17 @@ fn one(case: &Case<'_>, drive: Signal) -> Option<Misread> {
     let asked = Asked { drive, joints };
     let spread = spreads(case, &asked.joints);
     let is_well = |left: &[f64]| asked.joints.iter().all(|j| left[*j] < BAD * spread[*j]);
-    let is = asked.without(case);
+    let is = asked.without(case, ENOUGH);
+    if !is_well(&is)
+        && let Some(found) = asked.best(&is, asked.tried(case))
+    {
+        return Some(found);
+    }
+    if let Some(found) = asked.zero(case, &is, &spread) {
+        return Some(found);
+    }
     if is_well(&is) {
         return None;
-    }
-    if let Some(found) = asked.best(&is, asked.tried(case)) {
-        return Some(found);
-    }
-    let is_bad = |joint: &usize| is[*joint] >= BAD * spread[*joint];
-    let bad: Vec<usize> = asked.joints.iter().copied().filter(is_bad).collect();
-    if let Some(found) = asked.zero(case, &is, &bad) {
-        return Some(found);
     }
     // Torques that are late besides hide what is wrong with their columns.
     let late = case.late + DELAYS.iter().fold(0.0_f64, |most, delay| most.max(delay.abs()));
@@ -107,7 +107,7 @@ fn one(case: &Case<'_>, drive: Signal) -> Option<Misread> {
     });
     let cases: Vec<Case<'_>> =
         moved.iter().map(|signals| Case { signals, late, ..*case }).collect();
-    let alone = cases.iter().map(|case| asked.without(case));
+    let alone = cases.iter().map(|case| asked.without(case, ENOUGH));
     let is = alone.min_by(|a, b| asked.sum(a).total_cmp(&asked.sum(b)))?;
     if is_well(&is) {
         return None;
@@ -126,9 +126,9 @@ pub(super) struct Asked {
 }
 
 impl Asked {
-    /// What is left of every joint with the columns as they are told.
-    pub(super) fn without(&self, case: &Case<'_>) -> Vec<f64> {
-        let plain = Plain::of(case, Vec::new(), ENOUGH);
+    /// What is left of every joint with the columns as they are told, of about so many fine samples.
+    pub(super) fn without(&self, case: &Case<'_>, enough: usize) -> Vec<f64> {
+        let plain = Plain::of(case, Vec::new(), enough);
         plain.left(&[], &plain.dict.left(&Links::Free, &[])).0
     }
 
@@ -155,7 +155,7 @@ impl Asked {
             let misread = Misread::Sign { signal: Signal::Q, joint: *joint, or: None };
             let mut signals = case.signals.clone();
             turn(&mut signals, &misread);
-            let left = self.without(&Case { signals: &signals, ..*case });
+            let left = self.without(&Case { signals: &signals, ..*case }, ENOUGH);
             (misread, vec![*joint], left)
         };
         pairs.iter().enumerate().map(column).chain(joints.iter().map(angle)).collect()

@@ -6,6 +6,7 @@ use rayon::prelude::*;
 use stiffarm_kernels::Motion;
 
 use super::Misread;
+use super::plain::ENOUGH;
 use super::retold::{Asked, LEAVES, turn};
 use crate::log::search::case::Case;
 
@@ -15,17 +16,34 @@ const ANGLES: usize = 12;
 /// Golden sections: of a step of 30° on either side these leave 0.03°, which moves a torque by less than any noise.
 const SECTIONS: usize = 16;
 
+/// What a simple model leaves of a joint's torque, as a part of its spread, from which on a zero is asked for: friction
+/// hides what one does to the weights.
+const FAIR: f64 = 0.1;
+
+/// No smaller zero is asked for: by less a base leans, and effects say so.
+const LEAST: f64 = PI / 12.0;
+
+/// Fine samples that are enough to find an angle among others.
+const FEW: usize = 5_000;
+
 /// The ratio of a golden section.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 impl Asked {
-    /// The joint whose zero is off and by how much, if without that less than a part is left of the `bad` joints' torques.
-    pub(super) fn zero(&self, case: &Case<'_>, is: &[f64], bad: &[usize]) -> Option<Misread> {
-        let left = |joint: usize, by: f64| {
+    /// The joint whose zero is off and by how much, if without that less than a part is left of the torques of which
+    /// something `is` left, told in their `spread`.
+    pub(super) fn zero(&self, case: &Case<'_>, is: &[f64], spread: &[f64]) -> Option<Misread> {
+        let bad = self.joints.iter().filter(|j| is[**j] >= FAIR * spread[**j]);
+        let bad: Vec<usize> = bad.copied().collect();
+        if bad.is_empty() {
+            return None;
+        }
+        let left_of = |joint: usize, by: f64, enough: usize| {
             let mut signals = case.signals.clone();
             turn(&mut signals, &Misread::Zero { joint, by });
-            self.without(&Case { signals: &signals, ..*case })
+            self.without(&Case { signals: &signals, ..*case }, enough)
         };
+        let left = |joint: usize, by: f64| left_of(joint, by, FEW);
         let turns = |joint: &&usize| case.arm.joints[**joint].motion == Motion::Revolute;
         let angles = || (1..ANGLES).map(|k| TAU * k as f64 / ANGLES as f64);
         let tried: Vec<(usize, f64)> =
@@ -52,9 +70,9 @@ impl Asked {
         }
         let by = 0.5 * (low + high);
         let by = by - TAU * ((by - PI) / TAU).ceil();
-        let after = left(joint, by);
+        let after = left_of(joint, by, ENOUGH);
         let part = bad.iter().map(|j| (after[*j] / is[*j]).ln()).sum::<f64>() / bad.len() as f64;
-        let is_less = self.sum(&after) < self.sum(is) && part < LEAVES.ln();
+        let is_less = self.sum(&after) < self.sum(is) && part < LEAVES.ln() && by.abs() >= LEAST;
         is_less.then_some(Misread::Zero { joint, by })
     }
 }
