@@ -17,13 +17,13 @@ fn recorded(seed: u64) -> Log {
     let mut rng = Rng::new(seed, Stream::Noise);
     let noises = [(); 2].map(|()| noise(&mut rng, COUNT, STEP, 0.05, 0.5));
     let (mut q, mut torque) = (vec![Vec::new(); 2], vec![Vec::new(); 2]);
-    for k in 0..COUNT {
+    for (k, noises) in noises[0].iter().zip(&noises[1]).map(|(a, b)| [a, b]).enumerate() {
         let [at, rates, accelerations] = path.at(STEP * k as f64);
         let asks = rigid(at, rates, accelerations);
         let friction = [6.0 * rates[0].signum(), 0.0];
         for j in 0..2 {
             q[j].push(at[j] + 1e-6 * rng.normal());
-            torque[j].push(asks[j] + friction[j] + noises[j][k]);
+            torque[j].push(asks[j] + friction[j] + noises[j]);
         }
     }
     log(STEP, BTreeMap::from([(Signal::Q, q), (Signal::Torque, torque)]))

@@ -59,7 +59,7 @@ fn a_cell_that_other_joints_do_without_costs_them_nothing() {
     let row = |k: usize| {
         let lacks = k == 3 || (10..20).contains(&k);
         let tau2 = if lacks { "n/a".to_owned() } else { k.to_string() };
-        format!("{},1,1,5,{tau2},{}\n", 2 * k, if k % 4 == 0 { "20" } else { "" })
+        format!("{},1,1,5,{tau2},{}\n", 2 * k, if k.is_multiple_of(4) { "20" } else { "" })
     };
     let header = "t[ms],q1[deg],q2[mm],tau1[N*m],tau2[N],temp1[degC],temp2[degC]\n";
     let rows: String = (0..30).map(row).collect::<String>().replace(",20\n", ",20,20\n");
