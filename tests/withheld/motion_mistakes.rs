@@ -233,7 +233,7 @@ fn phrase(kind: Kind, log: &Log) -> Option<String> {
         Sign(Signal::Q, j) => format!("q{n} has the wrong sign for joint {n}", n = j + 1),
         Sign(_, j) => format!("tau{n} has the wrong sign for joint {n}", n = j + 1),
         Swapped(a, b) => format!("tau{} and tau{} stand in each other's columns", a + 1, b + 1),
-        Zero(j, by) => format!("q{n} is off by {by:.0}.", n = j + 1),
+        Zero(j, _) => format!("q{n} is off by ", n = j + 1),
         Late(_, a, b) if a == b => return phrase(Sign(Signal::Torque, a), log),
         Late(_, a, b) => return phrase(Swapped(a, b), log),
         Rates(factor) if factor < 0.0 => "qd1 … have the sign against".to_owned(),

@@ -77,7 +77,8 @@ impl Misread {
                 name = named(signal, *joint),
             ),
             Misread::Zero { joint, by } => format!(
-                "q{n} is off by {by:.1}° from the zero of the robot file: it is read as q{n} {sign} {size:.1}°; give it that                  offset, or add it to theta of joint {n} in the robot file",
+                "q{n} is off by {by:.1}° from the zero of the robot file: it is read as q{n} {sign} {size:.1}°; give it that offset, or \
+                 add it to theta of joint {n} in the robot file",
                 n = joint + 1,
                 by = by.to_degrees(),
                 sign = if *by < 0.0 { '−' } else { '+' },
