@@ -127,8 +127,7 @@ impl Host {
     /// # Errors
     /// [`Failure`]: it cannot be read.
     pub(crate) fn read(&self, path: &Path) -> Result<Vec<u8>, Failure> {
-        let held = self.program.as_ref().zip(path.to_str());
-        match held.and_then(|(program, name)| program.files.get(name)) {
+        match self.held(path) {
             Some(bytes) => Ok(bytes.clone()),
             None => stiffarm_gap::measurement::bytes(path)
                 .map_err(|error| Failure::io("read", path, &error)),
@@ -137,8 +136,13 @@ impl Host {
 
     /// Whether a file is to be read where it is, row by row.
     pub(crate) fn is_on_disk(&self, path: &Path) -> bool {
-        let held = self.program.as_ref().zip(path.to_str());
-        path.is_file() && !held.is_some_and(|(program, name)| program.files.contains_key(name))
+        path.is_file() && self.held(path).is_none()
+    }
+
+    /// The program's file of that name.
+    fn held(&self, path: &Path) -> Option<&Vec<u8>> {
+        let (program, name) = self.program.as_ref().zip(path.to_str())?;
+        program.files.get(name)
     }
 
     /// A file of a table: one on disk is gone through where it is, and not held.

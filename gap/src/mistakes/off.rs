@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use stiffarm_kernels::Motion;
 
 use super::kind::{Entry, Mistake};
-use super::search::{FEW, FEW_TURNS, Search, Tried};
+use super::search::{FEW, Search, Tried};
 
 /// Steps of a turn: least squares converge from half of one, 7.5°, which is tried itself, too: midway from nothing no
 /// amount leaves less.
@@ -82,20 +82,15 @@ impl Search<'_> {
     /// The best mistakes of any amount beside some others.
     pub(super) fn offs(&self, others: &[Mistake]) -> Vec<Tried> {
         let few = self.rows.fewer(FEW);
-        let left = |mistakes: Vec<Mistake>| {
-            let fit = self.fit(mistakes, &few, false);
-            fit.map_or(f64::INFINITY, |(_, fit)| fit.framed(FEW_TURNS).size)
-        };
-        let most = WORTH * left(others.to_vec());
+        let most = WORTH * self.framed(others.to_vec(), &few);
         let best_of = |amounts: &Vec<Mistake>| {
-            let each = amounts.iter().map(|off| (left([others, &[*off]].concat()), *off));
+            let each = amounts.iter().map(|off| {
+                let mistakes = [others, &[*off]].concat();
+                (self.framed(mistakes.clone(), &few), mistakes)
+            });
             each.min_by(|a, b| a.0.total_cmp(&b.0)).filter(|(left, _)| *left < most)
         };
-        let mut found: Vec<_> = self.amounts().par_iter().filter_map(best_of).collect();
-        found.sort_by(|a, b| a.0.total_cmp(&b.0));
-        found.truncate(BEST);
-        let fitted = found.into_par_iter();
-        fitted.filter_map(|(_, off)| self.tried([others, &[off]].concat())).collect()
+        self.refined(self.amounts().par_iter().filter_map(best_of).collect(), BEST)
     }
 
     /// The best pairs of a joint's zero and anything else, another joint's zero among them.
@@ -112,16 +107,13 @@ impl Search<'_> {
                 (Mistake::Off { row: a, .. }, Mistake::Off { row: b, .. }) => a > b,
                 _ => true,
             };
-            let each = zeros.iter().filter(is_new).filter_map(|zero| {
-                let (mistakes, fit) = self.fit(vec![*other, *zero], &few, false)?;
-                Some((fit.framed(FEW_TURNS).size, mistakes))
+            let each = zeros.iter().filter(is_new).map(|zero| {
+                let pair = vec![*other, *zero];
+                (self.framed(pair.clone(), &few), pair)
             });
-            each.min_by(|a, b| a.0.total_cmp(&b.0))
+            each.min_by(|a, b| a.0.total_cmp(&b.0)).filter(|(left, _)| left.is_finite())
         };
-        let mut pairs: Vec<(f64, Vec<Mistake>)> = others.par_iter().filter_map(best_of).collect();
-        pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
-        pairs.truncate(BEST);
-        pairs.into_par_iter().filter_map(|(_, pair)| self.tried(pair)).collect()
+        self.refined(others.par_iter().filter_map(best_of).collect(), BEST)
     }
 
     /// The same with amounts that need no zeros and springs beside them, where these explain nothing: what the diagnosis

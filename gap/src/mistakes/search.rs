@@ -47,7 +47,7 @@ const CERTAIN_OF_LOADS: f64 = CERTAIN + 5.0;
 
 /// Rows by which all pairs are compared, with the frames in closed form, and pairs that are then fitted.
 pub(super) const FEW: usize = 36;
-pub(super) const FEW_TURNS: usize = 4;
+const FEW_TURNS: usize = 4;
 const BEST_PAIRS: usize = 48;
 
 /// Part by which what the frames leave changes at least where a mistake does more than to move a frame;
@@ -99,6 +99,19 @@ impl Search<'_> {
         let rescaled = mistakes.iter().any(|m| matches!(m, Mistake::Coordinate { .. }));
         let given = if rescaled { reach(self.arm) } else { self.reach };
         reach(&self.arm_without(mistakes)).min(given)
+    }
+
+    /// What some rows leave with the frames alone; infinite where they are no place of an arm.
+    pub(super) fn framed(&self, mistakes: Vec<Mistake>, rows: &[usize]) -> f64 {
+        let fit = self.fit(mistakes, rows, false);
+        fit.map_or(f64::INFINITY, |(_, fit)| fit.framed(FEW_TURNS).size)
+    }
+
+    /// The first of those that leave least with the frames alone, with all unknowns.
+    pub(super) fn refined(&self, mut found: Vec<(f64, Vec<Mistake>)>, most: usize) -> Vec<Tried> {
+        found.sort_by(|a, b| a.0.total_cmp(&b.0));
+        found.truncate(most);
+        found.into_par_iter().filter_map(|(_, mistakes)| self.tried(mistakes)).collect()
     }
 
     pub(super) fn fit(
@@ -175,10 +188,7 @@ impl Search<'_> {
 
     /// Every mistake beside others, but for those that only move a frame.
     fn beside(&self, others: &[Mistake]) -> Vec<Tried> {
-        let framed = |mistakes: Vec<Mistake>| {
-            let fit = self.fit(mistakes, &self.rows.chosen, false);
-            fit.map_or(f64::INFINITY, |(_, fit)| fit.framed(FEW_TURNS).size)
-        };
+        let framed = |mistakes| self.framed(mistakes, &self.rows.chosen);
         let before = framed(others.to_vec());
         let is_new = |mistake: &&Mistake| {
             let seen = || framed([others, &[**mistake]].concat());
@@ -197,16 +207,13 @@ impl Search<'_> {
         let of_first = |first: usize| {
             let pair = |second: usize| {
                 let pair = vec![all[first], all[second]];
-                let (mistakes, fit) = self.fit(pair, &few, false)?;
-                let size = fit.framed(FEW_TURNS).size;
-                size.is_finite().then_some((size, mistakes))
+                let size = self.framed(pair.clone(), &few);
+                size.is_finite().then_some((size, pair))
             };
             (first + 1..all.len()).filter_map(pair).collect::<Vec<_>>()
         };
-        let mut pairs: Vec<_> = (0..all.len()).into_par_iter().flat_map_iter(of_first).collect();
-        pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
-        pairs.truncate(BEST_PAIRS);
-        pairs.into_par_iter().filter_map(|(_, pair)| self.tried(pair)).collect()
+        let pairs = (0..all.len()).into_par_iter().flat_map_iter(of_first).collect();
+        self.refined(pairs, BEST_PAIRS)
     }
 
     /// The mistakes. `nothing` is the file as it is.

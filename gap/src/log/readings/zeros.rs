@@ -2,7 +2,6 @@
 
 use std::f64::consts::{PI, TAU};
 
-use rayon::prelude::*;
 use stiffarm_kernels::Motion;
 
 use super::Misread;
@@ -38,25 +37,26 @@ impl Asked {
         if bad.is_empty() {
             return None;
         }
-        let left_of = |joint: usize, by: f64, enough: usize| {
-            let mut signals = case.signals.clone();
+        // One copy for all angles: a log of a million samples is large.
+        let mut signals = case.signals.clone();
+        let mut left_of = |joint: usize, by: f64, enough: usize| {
             turn(&mut signals, &Misread::Zero { joint, by });
-            self.without(&Case { signals: &signals, ..*case }, enough)
+            let left = self.without(&Case { signals: &signals, ..*case }, enough);
+            signals.q[joint].clone_from(&case.signals.q[joint]);
+            left
         };
-        let left = |joint: usize, by: f64| left_of(joint, by, FEW);
         let turns = |joint: &&usize| case.arm.joints[**joint].motion == Motion::Revolute;
         let angles = || (1..ANGLES).map(|k| TAU * k as f64 / ANGLES as f64);
-        let tried: Vec<(usize, f64)> =
-            self.joints.iter().filter(turns).flat_map(|j| angles().map(|by| (*j, by))).collect();
-        let sums = tried.into_par_iter().map(|(j, by)| (self.sum(&left(j, by)), j, by));
+        let tried = self.joints.iter().filter(turns).flat_map(|j| angles().map(|by| (*j, by)));
+        let sums = tried.map(|(j, by)| (self.sum(&left_of(j, by, FEW)), j, by));
         let (_, joint, from) = sums.min_by(|a, b| a.0.total_cmp(&b.0))?;
-        let sum = |by: f64| self.sum(&left(joint, by));
+        let mut sum = |by: f64| self.sum(&left_of(joint, by, FEW));
         let step = TAU / ANGLES as f64;
         let (mut low, mut high) = (from - step, from + step);
         let inner =
             |low: f64, high: f64| [high - GOLDEN * (high - low), low + GOLDEN * (high - low)];
         let mut at = inner(low, high);
-        let mut sums = at.map(sum);
+        let mut sums = at.map(&mut sum);
         for _ in 0..SECTIONS {
             if sums[0] < sums[1] {
                 high = at[1];
