@@ -10,7 +10,7 @@ use super::report::{CannotSee, Gauge, LeftOut, Part, Share};
 use super::search::{Explained, Search};
 use super::verdict::Held;
 use crate::effects::Effect;
-use crate::infer::Basis;
+use crate::infer::{Basis, Observations};
 
 /// What was seen before anything was found, and what explains it.
 pub(crate) struct Looked {

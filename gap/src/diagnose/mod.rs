@@ -43,6 +43,7 @@ pub use prior::Prior;
 pub use progress::{Stage, Stop};
 
 use crate::gap::Statistics;
+use crate::infer::Observations;
 
 use crate::measurement::Measurements;
 use crate::mistakes::{self, Mended};

@@ -47,8 +47,6 @@ pub struct Facts {
     pub beside: Option<&'static str>,
     /// Whether its change of a log's rows is not in proportion to its parameters.
     pub bends: bool,
-    /// Whether all its parameters count as one number: a direction, a body.
-    pub counts_once: bool,
 }
 
 impl Facts {
@@ -72,7 +70,6 @@ impl Facts {
         odds: 1,
         beside: None,
         bends: false,
-        counts_once: false,
     };
 
     /// The same of a law of torque rows.

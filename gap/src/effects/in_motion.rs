@@ -64,11 +64,6 @@ pub trait InMotion: Law {
         None
     }
 
-    /// For how many numbers it counts: a direction, and a body, count once.
-    fn things(&self) -> usize {
-        if self.facts().counts_once { 1 } else { self.parameters().len() }
-    }
-
     /// Whether a thing of this kind may have such values, those of the robot file among them.
     fn is_feasible(&self, values: &[f64]) -> bool {
         self.parameters().iter().zip(values).all(|(parameter, value)| *value >= parameter.least)

@@ -25,3 +25,12 @@ pub(crate) const RIDGE: f64 = 1e-9;
 /// Largest standard deviation of a number's prior, in units of what is usual of it: what is usual is known to a
 /// factor of about three. It holds what the data hardly decide, and the price of values beyond it is Gaussian.
 pub(crate) const LOOSE: f64 = 3.0;
+
+/// A candidate of which less is left beside the model cannot be seen.
+pub(crate) const OWN: f64 = 0.01;
+
+/// One term is exchanged for another only for this much more evidence: a factor of about five.
+pub(crate) const EXCHANGE: f64 = 3.0;
+
+/// Up to this much evidence the blocks must agree on it: where few of them carry it, chance may.
+pub(crate) const WEAK: f64 = 30.0;

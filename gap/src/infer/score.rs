@@ -64,7 +64,10 @@ impl Own {
         variance: f64,
     ) -> f64 {
         let products = &self.xx - self.zx.tr_mul(&self.zx);
-        price(products, held, Some(values.as_slice()), numbers, variance)
+        // What is added once, whatever the numbers, is none of them.
+        let (own, count) = (&values.as_slice()[..held.len()], held.len());
+        let products = products.view((0, 0), (count, count)).into_owned();
+        price(products, held, Some(own), numbers, variance)
     }
 }
 

@@ -11,6 +11,17 @@ pub(crate) trait Columns: Sync {
     /// Least values of its numbers.
     fn least(&self) -> &[f64];
 
+    /// Inverse of the standard deviation to which each of its numbers is held; 0 where any value is as good.
+    fn held(&self) -> &[f64];
+
+    /// Forms and places that it has: each more is one more chance to fit noise.
+    fn multiplicity(&self) -> usize;
+
+    /// Whether its numbers are held to what makers tolerate.
+    fn is_tolerated(&self) -> bool {
+        false
+    }
+
     /// Whether it is linearized about values that are not 0: a last column is then what it does there.
     fn is_linearized(&self) -> bool {
         false

@@ -34,12 +34,12 @@ pub(super) struct History {
 impl History {
     /// Notes what a round leaves.
     pub(super) fn note(&mut self, dict: &Dictionary<'_>, told: &Told<'_>, round: &Round) {
-        let unseen = Unseen::of(dict, &round.fit, &round.sizes, &round.blocks).sizes;
-        let names = round.fit.terms.iter().map(|t| (t.effect.identifier(), t.spot));
+        let unseen = Unseen::of(dict, &round.now.fit, &round.now.sizes, &round.blocks).sizes;
+        let names = round.now.fit.terms.iter().map(|t| (t.effect.identifier(), t.spot));
         self.left.push((names.collect(), told.mean(&unseen)));
         if self.before.is_empty() {
             self.before = unseen;
-            self.alone.clone_from(&round.fit.values);
+            self.alone.clone_from(&round.now.fit.values);
             let blind = round.asked.candidates.iter().filter(|c| !c.seen);
             self.hidden = blind.map(|c| (c.term.effect, c.term.spot)).collect();
         }
@@ -148,8 +148,8 @@ impl Told<'_> {
         unseen: &Unseen,
         by_command: Option<&[f64]>,
     ) -> Vec<Finding> {
-        let base = verdict.fit.columns.len()
-            - verdict.fit.terms.iter().map(|t| t.values.len()).sum::<usize>();
+        let base = verdict.now.fit.columns.len()
+            - verdict.now.fit.terms.iter().map(|t| t.values.len()).sum::<usize>();
         let mut widths = unseen.half_widths[base..].iter();
         let mut told_by_command = by_command.into_iter().flatten().copied();
         let mut tell = |judged: &Judged| {

@@ -15,14 +15,13 @@ use super::rigid::{Base, body, moved, report};
 use super::scene::Domain;
 use super::search::blocks::LEAST;
 use super::search::case::{Case, FOUND, Simple, Wanted};
-use super::search::converge::converged;
 use super::search::dictionary::{Dictionary, Mixed};
 use super::search::fit::{Fitted, Links, Term};
 use super::search::nested::nested;
 use super::search::residual::dependences;
 use super::search::springs::Springs;
 use super::search::unseen::Unseen;
-use super::search::{self, Round, effective};
+use super::search::{self, Round, Search, effective};
 use super::signal::Signals;
 use super::told::{History, Told};
 use crate::measurement::Body;
@@ -147,7 +146,7 @@ pub fn diagnosed_with(
     if let Some(late) = dict.late().filter(|_| simple.delay != 0.0) {
         let sizes = dict.sizes(&[dict.left(&links, &[])], &[1.0]);
         let offers: Vec<usize> = (0..dict.offers.len()).collect();
-        let none = Round::of(&dict, &[], &links, &sizes, &offers, options.seed);
+        let none = Search::new(&dict, &links, &offers, options.seed).round(&[], &sizes);
         history.borrow_mut().note(&dict, &told, &none);
         terms.push(late);
     }
@@ -155,30 +154,31 @@ pub fn diagnosed_with(
     let verdict = loop {
         let offers: Vec<usize> = (0..dict.offers.len()).collect();
         let mut each = |round: &Round| {
-            each(round.fit.terms.len());
+            each(round.now.fit.terms.len());
             history.borrow_mut().note(&dict, &told, round);
         };
-        let last = search::search(&dict, &terms, &links, &offers, options.seed, &mut each);
-        let verdict = converged(&dict, &last, &offers, options.seed, &mut each);
+        let search = Search::new(&dict, &links, &offers, options.seed);
+        let last = search.run(&terms, &mut each);
+        let verdict = search.converged(&last, &mut each);
         // What is made of loads is made of those of the links as they are fitted beside it.
-        let of_loads = verdict.fit.terms.iter().any(|term| term.effect.is_of_loads());
+        let of_loads = verdict.now.fit.terms.iter().any(|term| term.effect.is_of_loads());
         let better = of_loads && links == Links::Free;
-        let better = better && simple.moved_to(&dict, &verdict.fit.values[..dict.base]);
-        if again == AGAIN || !(better || moved_on(&dict, &verdict.fit.terms)) {
+        let better = better && simple.moved_to(&dict, &verdict.now.fit.values[..dict.base]);
+        if again == AGAIN || !(better || moved_on(&dict, &verdict.now.fit.terms)) {
             break verdict;
         }
         again += 1;
-        let more = about(&wanted, &verdict.fit.terms);
+        let more = about(&wanted, &verdict.now.fit.terms);
         dict = Dictionary::of(&case, &simple, &more, 1);
-        terms = verdict.fit.terms.iter().map(|term| again_of(&dict, term)).collect();
+        terms = verdict.now.fit.terms.iter().map(|term| again_of(&dict, term)).collect();
     };
     let History { before, left, hidden: unseen, alone } = history.into_inner();
-    let after = Unseen::of(&dict, &verdict.fit, &verdict.sizes, &verdict.blocks);
+    let after = Unseen::of(&dict, &verdict.now.fit, &verdict.now.sizes, &verdict.blocks);
     let blocks = &verdict.blocks;
     let (first, spread) = if verdict.findings.is_empty() {
         (&after.sizes, 0.0)
     } else {
-        let none = Fitted::of(&dict, &[], &links, &verdict.sizes);
+        let none = Fitted::of(&dict, &[], &links, &verdict.now.sizes);
         let sizes = none.sizes(&dict);
         let none = Unseen::of(&dict, &Fitted::of(&dict, &[], &links, &sizes), &sizes, blocks);
         (&before, after.spread(&none, &told.sizes, options.seed))
@@ -203,7 +203,7 @@ pub fn diagnosed_with(
         payloads: options.payloads.clone(),
         known: all_known,
         terms: verdict.findings.iter().map(|judged| acting(&judged.term)).collect(),
-        rigid: rigid(&verdict.fit.values),
+        rigid: rigid(&verdict.now.fit.values),
         alone: rigid(&alone),
         simple: simple.clone(),
         readings,
@@ -214,7 +214,7 @@ pub fn diagnosed_with(
         simple: &simple,
         terms: &model.terms,
         links: &links,
-        sizes: &verdict.sizes,
+        sizes: &verdict.now.sizes,
     };
     let by_command = asked.numbers();
     let diagnosis = LogDiagnosis {
@@ -233,8 +233,8 @@ pub fn diagnosed_with(
             standstill: still.clone(),
         },
         evidence: Evidence {
-            effective: effective(&dict.used, &verdict.correlation, &signals),
-            correlation_time: verdict.correlation.clone(),
+            effective: effective(&dict.used, &verdict.now.correlation, &signals),
+            correlation_time: verdict.now.correlation.clone(),
             rows: dict.used.iter().sum::<f64>() as usize,
             blocks: blocks.all.len(),
             block_length: blocks.length,
@@ -244,7 +244,7 @@ pub fn diagnosed_with(
         },
         rigid_parameters: if links == Links::Free { dict.base } else { 0 },
         rigid: case.base.filter(|_| links == Links::Free && !current).map(|base| {
-            let values = &verdict.fit.values;
+            let values = &verdict.now.fit.values;
             report::fitted(arm, base, values, &after.covariance(values), blocks.all.len())
         }),
         gap: told.gap(&before, &after.sizes, nested.as_deref()),

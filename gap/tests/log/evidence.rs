@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use stiffarm_gap::effects::{Facts, InMotion, Law, Parameter, Quantity, Spot};
 use stiffarm_gap::log::scene::{Column, Domain, Scene};
-use stiffarm_gap::log::search::Round;
+use stiffarm_gap::log::search::Search;
 use stiffarm_gap::log::search::case::{Case, Simple};
 use stiffarm_gap::log::search::dictionary::Dictionary;
 use stiffarm_gap::log::search::fit::Links;
@@ -74,7 +74,7 @@ fn trial(seed: u64, arm: &Arm) -> (f64, f64) {
     };
     let wanted = [(&UNRELATED as &dyn InMotion, Spot::of_joint(0), vec![vec![0.0]])];
     let dict = Dictionary::of(&case, &Simple::default(), &wanted, 1);
-    let round = Round::of(&dict, &[], &Links::Free, &[1.0], &[0], seed);
+    let round = Search::new(&dict, &Links::Free, &[0], seed).round(&[], &[1.0]);
     (round.asked.p_values[0], round.correlation[0])
 }
 

@@ -2,9 +2,9 @@
 //! nuisances, and all of the arm's geometry, have taken up what they can.
 
 use crate::diagnose::normal_equations::{Kept, Screen};
-use crate::diagnose::search::{Explained, First, OWN, Search};
+use crate::diagnose::search::{Explained, First, Search};
 use crate::effects::{Effect, Place};
-use crate::infer::constants::NUMBERS_EACH;
+use crate::infer::constants::{NUMBERS_EACH, OWN};
 use crate::report::{CannotSee, Hidden};
 
 /// An effect that moves what is measured by less than this part of what it does at its strongest

@@ -167,11 +167,6 @@ impl Candidate {
         }
     }
 
-    /// Whether it is held to what makers tolerate.
-    pub(crate) fn is_tolerated(&self) -> bool {
-        self.effect().is_some_and(|(effect, _)| effect.is_tolerated())
-    }
-
     /// Whether it is told by the order in which rows were measured.
     pub(crate) fn follows_time(&self) -> bool {
         self.effect().is_some_and(|(effect, _)| effect.depends().follows_time())

@@ -3,18 +3,14 @@
 
 use std::sync::Arc;
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 use rayon::prelude::*;
 
 use super::candidate::Candidate;
 use super::gather::Gathered;
 use crate::diagnose::data::{Folds, Problem};
 use crate::diagnose::fit::Model;
-use crate::infer::{self, Basis, Choice, Columns, Products, Score, principal};
-
-/// Rounds in which a variance and what is left at it settle: each is nearer by the part of the
-/// numbers that are hardly decided.
-const ROUNDS: usize = 6;
+use crate::infer::{self, Basis, Choice, Columns, Products};
 
 /// The candidates against a fitted model.
 pub(crate) type Screen<'c> = infer::Screen<'c, Candidate>;
@@ -22,6 +18,18 @@ pub(crate) type Screen<'c> = infer::Screen<'c, Candidate>;
 impl Columns for Candidate {
     fn least(&self) -> &[f64] {
         &self.least
+    }
+
+    fn held(&self) -> &[f64] {
+        &self.held
+    }
+
+    fn multiplicity(&self) -> usize {
+        self.multiplicity
+    }
+
+    fn is_tolerated(&self) -> bool {
+        self.effect().is_some_and(|(effect, _)| effect.is_tolerated())
     }
 }
 
@@ -90,37 +98,6 @@ impl<'c> Screen<'c> {
         };
         let (blocks, plain) = (chosen(&gathered.blocks), chosen(&gathered.plain));
         screen.by_block(blocks, plain, &folds.of_block, folds.count)
-    }
-
-    /// A candidate of many numbers, each held to its tolerance, fitted to all rows at the variance
-    /// of what it leaves, which `variance` makes of squares and a number of parameters; and its cost:
-    /// how far its numbers are from 0, and by how much the data narrow them (the evidence of a linear
-    /// model with a normal prior, MacKay 1992).
-    pub(crate) fn tolerated(
-        &self,
-        candidate: usize,
-        variance: impl Fn(f64, usize) -> f64,
-    ) -> (Score, f64) {
-        let own = self.own(candidate);
-        let held = DVector::from_column_slice(&self.candidates[candidate].held);
-        let scaled = |m: DMatrix<f64>| m.map_with_location(|r, c, x| x / (held[r] * held[c]));
-        let size = held.len();
-        let data = scaled(&own.xx - own.zx.tr_mul(&own.zx)) - DMatrix::identity(size, size);
-        let (seen, turn) = principal(data);
-        let right = turn.tr_mul(&(&own.xr - own.zx.tr_mul(&self.total.zr)).component_div(&held));
-        let mut unit = variance(self.left(), 0);
-        let (mut drop, mut decided) = (0.0, 0.0);
-        let mut values = DVector::zeros(size);
-        for _ in 0..ROUNDS {
-            values = right.zip_map(&seen, |u, seen| u / (seen + unit));
-            drop = 2.0 * values.dot(&right) - values.dot(&values.component_mul(&seen));
-            decided = seen.map(|seen| seen / (seen + unit)).sum();
-            unit = variance((self.left() - drop).max(0.0), decided.round() as usize);
-        }
-        let narrowed: f64 = seen.map(|seen| (seen / unit).ln_1p()).sum();
-        let cost = values.norm_squared() + narrowed;
-        let values = (turn * values).component_div(&held);
-        (Score { drop, values, rank: decided.round() as usize, own: 1.0 }, cost)
     }
 }
 

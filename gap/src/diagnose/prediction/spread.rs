@@ -7,7 +7,7 @@ use crate::diagnose::data::Problem;
 use crate::diagnose::fit::{Model, Predicted, block, squares};
 use crate::diagnose::options::Nuisance;
 use crate::diagnose::search::{Explained, Search};
-use crate::infer::Basis;
+use crate::infer::{Basis, Observations};
 
 /// Part by which a leverage changes with the arm that it is worked out for: the corrections themselves are
 /// some thousandths of what they correct.

@@ -3,15 +3,15 @@
 
 use std::sync::{Arc, OnceLock};
 
-use nalgebra::{DMatrix, DVector, Vector6};
+use nalgebra::Vector6;
 
 use super::first::First;
 use super::forward::{Explained, Search};
 use crate::diagnose::data::Problem;
-use crate::diagnose::fit::{Fit, normal_equations};
+use crate::diagnose::fit::Fit;
 use crate::diagnose::normal_equations::{Candidate, Gathered, Kept, Screen, Wanted};
 use crate::diagnose::options::DiagnoseError;
-use crate::infer::Autoregression;
+use crate::infer::{Autoregression, Observations};
 
 /// Steps of time, at most: of more visits neighbours are one step, so that the cost is bounded.
 const MOST_STEPS: usize = 1024;
@@ -21,17 +21,6 @@ impl<'s> Search<'s, '_> {
     pub(crate) fn gathered(&self, now: &Explained) -> Arc<Gathered> {
         let gather = || Arc::new(self.gather(now, &[], self.candidates));
         Arc::clone(now.gathered.get_or_init(gather))
-    }
-
-    /// Normal matrix of all parameters of the model, each loosely held to what is usual.
-    pub(crate) fn normal(&self, now: &Explained) -> DMatrix<f64> {
-        let Some(gathered) = now.gathered.get() else {
-            return normal_equations(self.problem, &now.fit, &now.weights).0;
-        };
-        let mut normal = gathered.total.zz.clone();
-        let mut right = DVector::zeros(normal.nrows());
-        now.fit.model.hold(self.problem, &mut normal, &mut right);
-        normal
     }
 
     /// Lets the search go on from what was gathered before it began.

@@ -1,90 +1,67 @@
-//! What came later may make an effect superfluous, or another better: after additions every effect
-//! is held against all that could stand in its place.
+//! A campaign as [`Observations`]: what may stand in place of what was found.
 
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 
-use super::forward::{Explained, Ranked, Search};
-use crate::diagnose::fit::{Fit, Fitted, Model};
-use crate::diagnose::normal_equations::{Candidate, Kept};
+use super::forward::{Explained, Search};
+use crate::diagnose::fit::{Fitted, Model, normal_equations, prior_penalty, squares};
+use crate::diagnose::normal_equations::{Candidate, Kept, Screen};
 use crate::diagnose::options::DiagnoseError;
-use crate::infer::Basis;
+use crate::infer::{Observations, Ranked, Scale, Terms, Weighed};
 
-/// Rounds of taking back and exchanging after each addition.
-const MOST_ROUNDS: usize = 12;
+impl Observations for Search<'_, '_> {
+    type Fit = Explained;
+    type Candidate = Candidate;
+    type Error = DiagnoseError;
 
-/// One effect is exchanged for another only for this much more evidence: a factor of about five.
-pub(super) const EXCHANGE: f64 = 3.0;
-
-/// An effect that leads all others by this much evidence is not compared with them again.
-const SURE: f64 = 60.0;
-
-impl Search<'_, '_> {
-    /// Takes back what is superfluous and exchanges what another explains better; at the `end` also two
-    /// for one.
-    pub(super) fn pruned(&self, mut now: Explained, end: bool) -> Result<Explained, DiagnoseError> {
-        for _ in 0..MOST_ROUNDS {
-            if now.fit.model.found.is_empty() || self.stopped() {
-                break;
-            }
-            let Some(next) = self.changed(&mut now, end)? else { break };
-            now = self.converged(next, now.weights)?;
-        }
-        Ok(now)
+    fn stopped(&self) -> bool {
+        self.problem.stop.is_asked()
     }
 
-    fn changed(&self, now: &mut Explained, end: bool) -> Result<Option<Fit>, DiagnoseError> {
-        let fitted = now.fit.model.parameters(self.problem);
-        let variance = self.scale(now).variance(self.left(now), fitted);
-        let costs = self.costs_of(now, variance);
-        // One alone was just added.
-        if now.fit.model.found.len() > 1
-            && let Some(index) = self.superfluous(now, &costs, variance)
-            && let Some(fit) = self.with(now, &[index], Vec::new(), f64::INFINITY)?
-        {
-            return Ok(Some(fit));
-        }
-        let is_fine = |found: &Fitted| found.effect.forms_are().is_fine(found.spot.form);
-        let all = Model::along(self.problem)..now.fit.model.found.len();
-        for index in all.clone() {
-            if now.fit.model.found[index].margin > SURE {
-                continue;
-            }
-            let (margin, fit) = self.exchanged(now, &[index], &costs, variance)?;
-            if fit.is_some() {
-                return Ok(fit);
-            }
-            if let Some(margin) = margin {
-                now.fit.model.found[index].margin = margin;
-            }
-        }
-        let open: Vec<usize> = all.filter(|k| !is_fine(&now.fit.model.found[*k])).collect();
-        for (number, first) in open.iter().enumerate().filter(|_| end) {
-            for second in &open[number + 1..] {
-                let (_, fit) = self.exchanged(now, &[*first, *second], &costs, variance)?;
-                if fit.is_some() {
-                    return Ok(fit);
-                }
-            }
-        }
-        Ok(None)
+    fn beside(&self, now: &Explained, without: &[usize]) -> Screen<'_> {
+        self.screen(now, Kept { without, whole: true, ..Kept::default() })
     }
 
-    /// The model with the best of all others in the place of some effects (ascending), if it has more
-    /// evidence than they at these `costs` of all effects; if not, by how much less it has, if there is one.
-    fn exchanged(
-        &self,
-        now: &Explained,
-        without: &[usize],
-        costs: &[f64],
-        variance: f64,
-    ) -> Result<(Option<f64>, Option<Fit>), DiagnoseError> {
-        if self.stopped() {
-            return Ok((None, None));
+    fn scale(&self, now: &Explained) -> Scale {
+        Scale { known: now.noise.is_known(), numbers: self.problem.numbers() }
+    }
+
+    fn left_by(&self, now: &Explained, by: &Explained) -> f64 {
+        squares(self.problem, &now.fit.predicted.gaps, &by.weights)
+            + prior_penalty(self.problem, &now.fit.model)
+    }
+
+    fn normal(&self, now: &Explained) -> DMatrix<f64> {
+        let Some(gathered) = now.gathered.get() else {
+            return normal_equations(self.problem, &now.fit, &now.weights).0;
+        };
+        let mut normal = gathered.total.zz.clone();
+        let mut right = DVector::zeros(normal.nrows());
+        now.fit.model.hold(self.problem, &mut normal, &mut right);
+        normal
+    }
+
+    fn terms<'f>(&'f self, now: &'f Explained) -> Terms<'f> {
+        let weighed = |found: &'f Fitted| Weighed {
+            values: &found.values,
+            held: &found.held,
+            multiplicity: found.multiplicity,
+            is_tolerated: found.effect.is_tolerated(),
+            is_proportional: true,
+            margin: found.margin,
+        };
+        Terms {
+            nuisances: Model::nuisances(self.problem),
+            along: Model::along(self.problem),
+            each: now.fit.model.found.iter().map(weighed).collect(),
         }
+    }
+
+    fn replacing<'n>(
+        &'n self,
+        now: &'n Explained,
+        without: &'n [usize],
+    ) -> Box<dyn Fn(&Ranked) -> bool + 'n> {
         let found = &now.fit.model.found;
-        let kept = Kept { without, whole: true, ..Kept::default() };
-        let screen = self.screen(now, kept);
-        let own = self.left(now) / variance + without.iter().map(|k| costs[*k]).sum::<f64>();
         // One effect is no other than itself, but one order of a periodic error is not another; of two
         // that one might do for, it may be one of them.
         let is_it = |candidate: &Candidate| {
@@ -97,48 +74,38 @@ impl Search<'_, '_> {
                 })
         };
         let resolved = self.resolved();
-        let others =
-            || found.iter().enumerate().filter(|(k, _)| !without.contains(k)).map(|(_, f)| f);
-        let can = |r: &&Ranked| {
-            let candidate = &self.candidates[r.candidate];
-            !is_it(candidate) && candidate.is_apart(&resolved, others())
-        };
-        let ranked = self.ranked(&screen, now);
-        let Some(best) = ranked.iter().find(can) else { return Ok((None, None)) };
-        let its = best.cost;
-        let margin = (screen.left() - best.score.drop) / variance + its - own;
-        if margin + EXCHANGE >= 0.0 {
-            return Ok((Some(margin), None));
-        }
-        let refined = self.refined(now, without, best, &screen).into_iter().collect();
-        let Some(fit) = self.with(now, without, refined, (own - its) * variance)? else {
-            return Ok((None, None));
-        };
-        let lingers = self.lingers(now, &fit, best)?;
-        Ok((None, (!lingers).then_some(fit)))
+        Box::new(move |one| {
+            let candidate = &self.candidates[one.candidate];
+            let others = found.iter().enumerate().filter(|(k, _)| !without.contains(k));
+            !is_it(candidate) && candidate.is_apart(&resolved, others.map(|(_, f)| f))
+        })
     }
 
-    /// The effect that costs most beyond what it explains beside all the others, if one does.
-    fn superfluous(&self, now: &Explained, costs: &[f64], variance: f64) -> Option<usize> {
-        let basis = Basis::new(&self.normal(now));
-        let mut at = Model::nuisances(self.problem);
-        let mut worst: Option<(f64, usize)> = None;
-        for (index, found) in now.fit.model.found.iter().enumerate() {
-            let size = found.values.len();
-            let own = basis.t.rows(at, size);
-            at += size;
-            if index < Model::along(self.problem) {
-                continue;
-            }
-            // Without it the squares rise by its values in the metric of their covariance.
-            let values = DVector::from_column_slice(&found.values);
-            let rise = Basis::new(&(own * own.transpose())).t.tr_mul(&values).norm_squared();
-            let excess = costs[index] - rise / variance;
-            if excess >= 0.0 && worst.is_none_or(|(most, _)| excess > most) {
-                worst = Some((excess, index));
-            }
+    fn is_pair(&self, now: &Explained, pair: [usize; 2]) -> bool {
+        let found = &now.fit.model.found;
+        pair.iter().all(|k| !found[*k].effect.forms_are().is_fine(found[*k].spot.form))
+    }
+
+    fn replaced(
+        &self,
+        now: &Explained,
+        without: &[usize],
+        by: Option<(&Ranked, &Screen<'_>)>,
+        below: f64,
+    ) -> Result<Option<Explained>, DiagnoseError> {
+        let refined = by.and_then(|(one, screen)| self.refined(now, without, one, screen));
+        let added = refined.into_iter().collect();
+        let Some(fit) = self.with(now, without, added, below)? else { return Ok(None) };
+        if let Some((one, _)) = by
+            && self.lingers(now, &fit, one)?
+        {
+            return Ok(None);
         }
-        worst.map(|(_, index)| index)
+        self.converged(fit, now.weights).map(Some)
+    }
+
+    fn note_margin(&self, now: &mut Explained, term: usize, margin: f64) {
+        now.fit.model.found[term].margin = margin;
     }
 }
 
@@ -149,10 +116,12 @@ mod tests {
     use super::*;
     use crate::diagnose::Options;
     use crate::diagnose::data::{Folds, Problem};
+    use crate::diagnose::fit::Model;
     use crate::diagnose::normal_equations::{Candidate, scale_elastic};
     use crate::diagnose::tests::normal;
     use crate::effects::{CATALOGUE, Place, Spot};
     use crate::fixture::{rigid, row, table};
+    use crate::infer::pruned;
     use crate::measurement::{Kind, Row};
     use crate::rng::{Rng, Stream};
     use crate::simulate::simulate;
@@ -201,8 +170,8 @@ mod tests {
             each.collect::<Vec<_>>()
         };
         let begun = search.begin(model).unwrap();
-        let alone = search.pruned(begun.clone(), false).unwrap();
+        let alone = pruned(&search, begun.clone(), false).unwrap();
         assert_eq!(names(&alone), ["joint_compliance"; 2]);
-        assert_eq!(names(&search.pruned(begun, true).unwrap()), ["wrench_scale"]);
+        assert_eq!(names(&pruned(&search, begun, true).unwrap()), ["wrench_scale"]);
     }
 }

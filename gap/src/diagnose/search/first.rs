@@ -3,6 +3,7 @@
 
 use super::forward::{Explained, Search};
 use crate::diagnose::normal_equations::{Candidate, Gathered};
+use crate::infer::Columns;
 
 /// What the data show before anything is found: all of the catalogue, and displacements of free form,
 /// beside the frames and the geometry.

@@ -1,7 +1,6 @@
 //! Which effects: added one by one, each judged beside all that is already there, and each taken
 //! back or exchanged when what came later makes it superfluous or another better.
 
-use super::evidence::Scale;
 use crate::diagnose::data::{Folds, Noise, Problem};
 use crate::diagnose::fit::{
     Fit, Fitted, Model, Predicted, prior_penalty, refit, refit_below, squares,
@@ -10,8 +9,8 @@ use crate::diagnose::normal_equations::{Candidate, Gathered, Kept, Screen};
 use crate::diagnose::options::{DiagnoseError, Options};
 use crate::diagnose::progress::Stage;
 use crate::effects::{Effect, Forms, Spot};
-use crate::infer::constants::{NUMBERS_EACH, SIGNIFICANT};
-use crate::infer::{Basis, Score, SignFlips, price};
+use crate::infer::constants::SIGNIFICANT;
+use crate::infer::{Observations, Ranked, SignFlips, pruned};
 use nalgebra::Vector6;
 use std::sync::{Arc, OnceLock};
 
@@ -30,9 +29,6 @@ const KEPT: f64 = 0.5;
 
 /// Candidates that are tried in turn when the exact fit does not follow the linear one.
 const MOST_TRIED: usize = 3;
-
-/// A candidate of which less is left beside the model cannot be seen.
-pub(crate) const OWN: f64 = 0.01;
 
 /// Rounds in which weights and fit settle.
 const MOST_WEIGHED: usize = 6;
@@ -78,23 +74,7 @@ impl Explained {
     }
 }
 
-/// A candidate beside a model; more `gain` is better.
-pub(crate) struct Ranked {
-    pub(crate) candidate: usize,
-    pub(crate) score: Score,
-    /// What the parameters cost.
-    pub(crate) cost: f64,
-    /// By how much more the squares fall, in units of the noise.
-    pub(crate) gain: f64,
-}
-
 impl Search<'_, '_> {
-    /// Weighted squares that a fit leaves, and what it costs to hold its values.
-    pub(crate) fn left(&self, now: &Explained) -> f64 {
-        squares(self.problem, &now.fit.predicted.gaps, &now.weights)
-            + prior_penalty(self.problem, &now.fit.model)
-    }
-
     /// A fit by the weights `before`, fitted again until its weights are those of what it leaves.
     pub(crate) fn converged(
         &self,
@@ -147,73 +127,15 @@ impl Search<'_, '_> {
                 now = self.or_paired(&begun, now)?;
             }
             if count <= SMALL || count.is_multiple_of(SMALL) {
-                now = self.pruned(now, false)?;
+                now = pruned(self, now, false)?;
             }
         }
-        self.pruned(now, true)
-    }
-
-    /// Whether an end is asked for: nothing is fitted any more then.
-    pub(crate) fn stopped(&self) -> bool {
-        self.problem.stop.is_asked()
-    }
-
-    pub(crate) fn scale(&self, now: &Explained) -> Scale {
-        Scale { known: now.noise.is_known(), numbers: self.problem.numbers() }
-    }
-
-    /// Cost of the effects that were found, of some in the place of others by the `variance` that is left.
-    pub(crate) fn costs_of(&self, now: &Explained, variance: f64) -> Vec<f64> {
-        let basis = Basis::new(&self.normal(now));
-        let numbers = self.problem.numbers();
-        let mut at = Model::nuisances(self.problem);
-        let cost = |found: &Fitted| {
-            let own = basis.t.rows(at, found.values.len());
-            at += found.values.len();
-            // What is left of its products beside all others is the inverse of its covariance.
-            let beside = Basis::new(&(own * own.transpose())).t;
-            let products = &beside * beside.transpose();
-            let values = (!found.effect.is_tolerated()).then_some(found.values.as_slice());
-            let price = price(products, &found.held, values, numbers, variance);
-            Scale::cost(price, found.multiplicity)
-        };
-        now.fit.model.found.iter().map(cost).collect()
+        pruned(self, now, true)
     }
 
     /// The candidates beside the model, best first.
     pub(crate) fn ranked(&self, screen: &Screen<'_>, now: &Explained) -> Vec<Ranked> {
-        let (left, fitted) = (screen.left(), screen.basis.rank());
-        let room = (self.problem.numbers() / NUMBERS_EACH).saturating_sub(fitted);
-        let scale = self.scale(now);
-        let tolerated =
-            |c: usize| screen.tolerated(c, |left, own| scale.variance(left, fitted + own));
-        let scored =
-            (0..screen.candidates.len()).map(|c| match screen.candidates[c].is_tolerated() {
-                true => {
-                    let (score, cost) = tolerated(c);
-                    (c, score, Some(cost))
-                }
-                false => (c, screen.score(c), None),
-            });
-        let can = |score: &Score| score.rank > 0 && score.own > OWN && score.rank <= room;
-        let kept: Vec<_> = scored.filter(|(_, s, _)| can(s) && s.drop > 0.0).collect();
-        let best = kept.iter().map(|(_, s, _)| s.drop).fold(0.0, f64::max);
-        let variance = scale.variance((left - best).max(0.0), fitted);
-        let mut ranked: Vec<Ranked> = kept
-            .into_iter()
-            .map(|(candidate, score, cost)| {
-                let it = &screen.candidates[candidate];
-                let own = || {
-                    let own = screen.own(candidate);
-                    own.price(&it.held, &score.values, scale.numbers, variance)
-                };
-                let cost = cost.unwrap_or_else(|| Scale::cost(own(), it.multiplicity));
-                let gain = score.drop / variance - cost;
-                Ranked { candidate, score, cost, gain }
-            })
-            .collect();
-        ranked.sort_by(|a, b| b.gain.total_cmp(&a.gain));
-        ranked
+        screen.ranked(self.scale(now))
     }
 
     /// The model with the best candidate added, if it is significant.

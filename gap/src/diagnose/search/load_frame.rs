@@ -6,6 +6,7 @@ use super::forward::{Explained, Search};
 use crate::diagnose::fit::{Axes, Model, prior_penalty, refit_below, squares};
 use crate::diagnose::options::DiagnoseError;
 use crate::infer::constants::DISTINGUISHABLE;
+use crate::infer::{Observations, costs};
 
 /// A base leans by no more, rad: what leans further stands in no frame that was levelled, or is meant to.
 const MOST_LEAN: f64 = 0.1;
@@ -30,7 +31,7 @@ impl Search<'_, '_> {
         let (left, scale) = (self.left(now), self.scale(now));
         let variance = scale.variance(left, model.parameters(problem));
         let tilt = model.found.iter().position(|found| found.effect.tilts_gravity());
-        let cost = tilt.map_or(0.0, |k| self.costs_of(now, variance)[k]);
+        let cost = tilt.map_or(0.0, |k| costs(self, now, variance)[k]);
         let mut other = model.clone();
         other.axes = Axes::Measuring;
         other.found.retain(|found| !found.effect.tilts_gravity());

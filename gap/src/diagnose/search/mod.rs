@@ -4,7 +4,7 @@
 //! candidates.
 //! **Out:** the same with the effects that the data ask for, fitted exactly.
 //!
-//! `forward` adds one effect after the other: the one with the most evidence (`evidence`: what it
+//! `forward` adds one effect after the other: the one with the most evidence (`infer`: what it
 //! explains against what its parameters cost, and the chance that noise explains as much), if it
 //! shrinks the held-out gap. `refined` places a jump in time, `load_frame` says in whose axes loads act, `exchange`
 //! removes or replaces what was added too early. All ask the sums that were gathered [`beside`](Search::screen)
@@ -12,7 +12,6 @@
 //! before anything is found, also says what the data could show.
 
 mod beside;
-mod evidence;
 mod exchange;
 mod first;
 mod forward;
@@ -20,6 +19,5 @@ mod load_frame;
 mod pairs;
 mod refined;
 
-pub(crate) use evidence::Scale;
 pub(crate) use first::First;
-pub(crate) use forward::{Explained, OWN, Ranked, Search};
+pub(crate) use forward::{Explained, Search};

@@ -3,14 +3,13 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::evidence::Scale;
-use super::exchange::EXCHANGE;
-use super::forward::{Explained, OWN, Search};
-use crate::diagnose::fit::{Fitted, prior_penalty, squares};
+use super::forward::{Explained, Search};
+use crate::diagnose::fit::Fitted;
 use crate::diagnose::normal_equations::Candidate;
 use crate::diagnose::options::DiagnoseError;
 use crate::effects::{Forms, Group};
-use crate::infer::{Basis, Squares, price, starts};
+use crate::infer::constants::{EXCHANGE, OWN};
+use crate::infer::{Basis, Observations, Scale, Squares, against, price, starts};
 
 /// Two causes, and the evidence of both beside the frames.
 struct Pair {
@@ -54,18 +53,8 @@ impl Search<'_, '_> {
         // By the noise of either.
         let is_better = [&now, &pair]
             .into_iter()
-            .all(|by| self.against(&pair, by) + EXCHANGE < self.against(&now, by));
+            .all(|by| against(self, &pair, by) + EXCHANGE < against(self, &now, by));
         Ok(if is_better { pair } else { now })
-    }
-
-    /// What speaks against a fit: twice its negative logarithmic evidence at the noise of a fit.
-    fn against(&self, fit: &Explained, by: &Explained) -> f64 {
-        let model = &fit.fit.model;
-        let fitted = by.fit.model.parameters(self.problem);
-        let variance = self.scale(by).variance(self.left(by), fitted);
-        let left = squares(self.problem, &fit.fit.predicted.gaps, &by.weights);
-        let costs = self.costs_of(fit, variance).into_iter().sum::<f64>();
-        (left + prior_penalty(self.problem, model)) / variance + costs
     }
 
     fn best_pair(&self, begun: &Explained, ordinary: &[Candidate]) -> Option<Pair> {

@@ -1,10 +1,10 @@
 //! A candidate as a part of the model, a jump at the best of all moments near its own.
 
-use super::forward::{Explained, Ranked, Search};
+use super::forward::{Explained, Search};
 use crate::diagnose::fit::Fitted;
 use crate::diagnose::normal_equations::{Candidate, Kept, Screen};
 use crate::effects::{Forms, Spot};
-use crate::infer::Score;
+use crate::infer::{Ranked, Score};
 
 /// Moments of a jump that are tried at once; of more, an even choice, and then those about the best.
 const MOST_NEAR: usize = 256;

@@ -8,7 +8,7 @@ use crate::diagnose::data::Problem;
 use crate::diagnose::fit::{Fit, Model, block, squares};
 use crate::diagnose::search::{Explained, Search};
 use crate::infer::constants::RIDGE;
-use crate::infer::{Basis, students_t};
+use crate::infer::{Basis, Observations, students_t};
 
 /// Visits that are left out one after the other; of more, visits that follow each other go together.
 const MOST_CLUSTERS: usize = 400;

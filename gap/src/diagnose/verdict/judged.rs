@@ -12,6 +12,7 @@ use crate::diagnose::report::{
 };
 use crate::diagnose::search::{Explained, Search};
 use crate::gap::Statistics;
+use crate::infer::Observations;
 use crate::infer::constants::SIGNIFICANT;
 use crate::shrink::Shrink;
 

@@ -7,7 +7,7 @@ use crate::diagnose::data::{Folds, Problem};
 use crate::diagnose::fit::{Fit, Model, block};
 use crate::diagnose::options::DiagnoseError;
 use crate::diagnose::search::{Explained, Search};
-use crate::infer::{Basis, Products, RANK};
+use crate::infer::{Basis, Observations, Products, RANK};
 
 /// The effects of one finding: all forms of one effect at one place are one.
 pub(crate) type Group = Vec<usize>;

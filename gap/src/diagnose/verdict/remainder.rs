@@ -8,8 +8,8 @@ use crate::diagnose::options::DiagnoseError;
 use crate::diagnose::report::{Share, Unexplained};
 use crate::diagnose::search::{Explained, First, Search};
 use crate::effects::Place;
-use crate::infer::SignFlips;
 use crate::infer::constants::UNEXPLAINED;
+use crate::infer::{Observations, SignFlips};
 
 /// Displacements of free form that are tried beside each other.
 const MOST_FORMS: usize = 6;

@@ -6,13 +6,10 @@ use rayon::prelude::*;
 use super::outcome::Group;
 use crate::diagnose::normal_equations::{Candidate, Kept, Screen};
 use crate::diagnose::options::DiagnoseError;
-use crate::diagnose::search::{Explained, Ranked, Search};
-use crate::infer::constants::DISTINGUISHABLE;
-use crate::infer::{Score, SignFlips};
+use crate::diagnose::search::{Explained, Search};
+use crate::infer::constants::{DISTINGUISHABLE, WEAK};
+use crate::infer::{Observations, Ranked, Score, SignFlips, costs};
 use crate::report::{Alternative, Left};
-
-/// Up to this much evidence the poses must agree on it: where few of them carry it, chance may.
-const WEAK: f64 = 30.0;
 
 /// The explained gap with other explanations in a finding's place.
 pub(crate) struct Rivals {
@@ -38,7 +35,7 @@ impl Search<'_, '_> {
         let left = self.left(now);
         let variance = scale.variance(left, now.fit.model.parameters(self.problem));
         let found: Vec<_> = group.iter().map(|index| &now.fit.model.found[*index]).collect();
-        let costs = self.costs_of(now, variance);
+        let costs = costs(self, now, variance);
         let own = left / variance + group.iter().map(|k| costs[*k]).sum::<f64>();
         let own_blocks = self.per_block(now);
         let ranked = self.ranked(&screen, now);

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use crate::diagnose::fit::{Fitted, block, squares};
 use crate::diagnose::search::{Explained, Search};
 use crate::effects::{Forms, Quantity, Scene, Spot};
-use crate::infer::{Basis, students_t};
+use crate::infer::{Basis, Observations, students_t};
 
 /// Rows whose products are added up by one thread.
 const CHUNK: usize = 256;

@@ -5,8 +5,9 @@ use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use crate::diagnose::normal_equations::Screen;
-use crate::diagnose::search::{Explained, OWN, Scale, Search};
-use crate::infer::{Basis, Own, Products};
+use crate::diagnose::search::{Explained, Search};
+use crate::infer::constants::OWN;
+use crate::infer::{Basis, Observations, Own, Products, Scale};
 use crate::rng::{Rng, Stream};
 
 /// Random halves.

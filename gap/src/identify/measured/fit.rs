@@ -15,7 +15,7 @@ use crate::diagnose::{DiagnoseError, Options};
 use crate::gap::Statistics;
 use crate::identify::pull::{Pull, pull};
 use crate::infer::constants::SIGNIFICANT;
-use crate::infer::{Basis, students_t, two_sided};
+use crate::infer::{Basis, Observations, students_t, two_sided};
 use crate::measurement::Measurements;
 
 /// The fit has not come to its end if another step promises more than this part of what there was.

@@ -4,7 +4,7 @@
 //! told from zero, and its part is taken by the other then, with an interval that knows nothing of it: the
 //! friction of a wrist's motor comes out too large by half of what the last joint has.
 
-use super::dictionary::Dictionary;
+use super::Search;
 use super::fit::Term;
 use crate::log::scene::Loads;
 
@@ -20,17 +20,19 @@ pub fn is_along(term: &Term, terms: &[Term]) -> bool {
     terms.iter().any(has)
 }
 
-/// The terms, and what stands beside them; what the robot file has already is there.
-pub fn with_along(dict: &Dictionary<'_>, mut terms: Vec<Term>, offers: &[usize]) -> Vec<Term> {
-    let (loads, simple) = (Loads::default(), Simple::default());
-    let scene = dict.case.scene(&simple, dict.case.signals, &loads);
-    for offer in offers {
-        let term = dict.term(*offer, 0);
-        let stands =
-            terms.iter().any(|t| t.offer == *offer) || term.effect.in_file(&scene, term.spot);
-        if !stands && is_along(&term, &terms) {
-            terms.push(term);
+impl Search<'_, '_> {
+    /// The terms, and what stands beside them; what the robot file has already is there.
+    pub(super) fn with_along(&self, mut terms: Vec<Term>) -> Vec<Term> {
+        let (loads, simple, dict) = (Loads::default(), Simple::default(), self.dict);
+        let scene = dict.case.scene(&simple, dict.case.signals, &loads);
+        for offer in self.offers {
+            let term = dict.term(*offer, 0);
+            let stands =
+                terms.iter().any(|t| t.offer == *offer) || term.effect.in_file(&scene, term.spot);
+            if !stands && is_along(&term, &terms) {
+                terms.push(term);
+            }
         }
+        terms
     }
-    terms
 }

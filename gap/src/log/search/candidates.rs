@@ -1,15 +1,17 @@
-//! What could be added to a model: its held-out squares, and how likely chance is to do as well.
+//! What could be added to a model: its evidence, its held-out squares, and how likely chance is to do as well.
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use super::blocks::Blocks;
-use super::dictionary::{Dictionary, Entry};
-use super::fit::{Fitted, Term, weights};
+use super::dictionary::Entry;
+use super::explained::Explained;
+use super::fit::Term;
 use super::normal_equations::Sums;
-use crate::infer::{Basis, Columns, Products, Screen, Signs, unit};
+use super::{LOOSE, Search};
+use crate::infer::{Basis, Columns, Observations, Products, Ranked, Screen, Signs, unit};
 
-/// So many of the candidates that take most of what is left are held out; the others take less.
+/// So many of the candidates that have most evidence are held out; the others have less.
 const HELD_OUT: usize = 24;
 
 /// What could be added to a model.
@@ -31,15 +33,21 @@ pub struct Candidate {
     /// Whether it says anything beside the model.
     pub seen: bool,
     /// By how much it makes the squares smaller that are fitted.
-    gain: f64,
+    pub drop: f64,
+    /// Twice the logarithm of its odds.
+    pub gain: f64,
 }
 
 /// An entry of the dictionary as a candidate.
-struct Linear<'s> {
-    offer: usize,
-    entry: usize,
+pub struct Linear<'s> {
+    /// Its effect at a place.
+    pub offer: usize,
+    /// About which values.
+    pub entry: usize,
     of: &'s Entry,
     least: Vec<f64>,
+    held: Vec<f64>,
+    multiplicity: usize,
 }
 
 impl Columns for Linear<'_> {
@@ -47,79 +55,117 @@ impl Columns for Linear<'_> {
         &self.least
     }
 
+    fn held(&self) -> &[f64] {
+        &self.held
+    }
+
+    fn multiplicity(&self) -> usize {
+        self.multiplicity
+    }
+
     fn is_linearized(&self) -> bool {
         self.of.done.is_some()
     }
 }
 
-impl Asked {
-    /// Asks a fit, told in these sizes, for some of the offers, each about the values that do best.
-    pub fn of(
-        dict: &Dictionary<'_>,
-        fit: &Fitted,
-        sizes: &[f64],
-        (blocks, sums): (&Blocks, &Sums),
-        offers: &[usize],
-        seed: u64,
-    ) -> Asked {
-        let linear = |&offer: &usize| {
-            let entries = dict.offers[offer].entries.iter().enumerate();
+impl<'s> Search<'s, '_> {
+    /// The entries of some offers.
+    pub(super) fn linear(&self, offers: &[usize]) -> Vec<Linear<'s>> {
+        let dict = self.dict;
+        let of_offer = |&offer: &usize| {
+            let (effect, entries) = (dict.offers[offer].effect, &dict.offers[offer].entries);
+            let is_same = |other: &&super::dictionary::Offer| {
+                other.effect.identifier() == effect.identifier()
+            };
+            let all = dict.offers.iter().filter(is_same);
+            let multiplicity = all.map(|other| other.entries.len()).sum();
+            let entries = entries.iter().enumerate();
             entries.map(move |(entry, of)| {
                 let least = vec![f64::NEG_INFINITY; of.columns.len()];
-                Linear { offer, entry, of, least }
+                // About other values than 0 what is usual says nothing of the step to the best.
+                let usual = effect.parameters().iter().map(|p| match of.done {
+                    None if p.usual.is_finite() => 1.0 / (LOOSE * p.usual),
+                    _ => 0.0,
+                });
+                let held = usual.chain(std::iter::repeat(0.0)).take(least.len()).collect();
+                Linear { offer, entry, of, least, held, multiplicity }
             })
         };
-        let all: Vec<Linear<'_>> = offers.iter().flat_map(linear).collect();
-        let screen = screen(fit, sizes, (blocks, sums), &all);
+        offers.iter().flat_map(of_offer).collect()
+    }
+
+    /// Candidates beside a fit, over all rows or block by block.
+    pub(super) fn screen_of<'c>(
+        &self,
+        now: &Explained,
+        divided: Option<(&Blocks, &Sums)>,
+        candidates: &'c [Linear<'s>],
+    ) -> Screen<'c, Linear<'s>> {
+        let entries: Vec<&Entry> = candidates.iter().map(|candidate| candidate.of).collect();
+        let sums = divided.map_or(self.dict.whole(), |(_, sums)| sums);
+        let columns = now.fit.bordered().0;
+        let parts = sums.linearized(&columns, &entries, &self.weights(now));
+        let widths: Vec<usize> = candidates.iter().map(Columns::columns).collect();
+        let mut total = Products::zeros(now.fit.columns.len(), &widths);
+        let mut prior = total.clone();
+        for (own, candidate) in std::sync::Arc::make_mut(&mut prior.xx).iter_mut().zip(candidates) {
+            let squares = candidate.held.iter().map(|held| held * held);
+            let squares = squares.chain(candidate.of.done.iter().map(|_| 0.0));
+            own.set_diagonal(&DVector::from_iterator(candidate.columns(), squares));
+        }
+        parts.iter().chain([&prior]).for_each(|part| total.add(part));
+        let basis = Basis::ordered(&total.zz);
+        let screen = Screen::new(candidates, basis, total, prior);
+        match divided {
+            Some((blocks, _)) => screen.by_block(parts, Vec::new(), &blocks.fold, blocks.folds),
+            None => screen,
+        }
+    }
+
+    /// A ranked candidate as a term of a model.
+    pub(super) fn term(&self, candidate: &Linear<'_>, values: &DVector<f64>) -> Term {
+        let mut term = self.dict.term(candidate.offer, candidate.entry);
+        let from = term.values.iter().map(|at| if candidate.is_linearized() { *at } else { 0.0 });
+        term.values = from.zip(values.iter()).map(|(from, by)| from + by).collect();
+        term
+    }
+
+    /// Asks a fit for some of the offers, each about the values that do best.
+    pub fn asked(&self, now: &Explained, divided: (&Blocks, &Sums), offers: &[usize]) -> Asked {
+        let all = self.linear(offers);
+        let screen = self.screen_of(now, Some(divided), &all);
         let trained = screen.trained();
         let squares = screen.held_out_by_block(&trained, None);
+        let ranked = screen.ranked(self.scale(now));
         let mut from = 0;
-        // Of the entries of an offer the best, by its number.
         let of_offer = |entries: &[Linear<'_>]| {
             let own = from..from + entries.len();
             from = own.end;
             own
         };
         let ranges: Vec<_> = all.chunk_by(|a, b| a.offer == b.offer).map(of_offer).collect();
+        // Of the entries of an offer the best.
         let best = |range: &core::ops::Range<usize>| {
-            let scores = range.clone().map(|c| (c, screen.score(c)));
-            let best = scores.reduce(|a, b| if b.1.drop > a.1.drop { b } else { a });
-            let (c, score) = best.expect("an offer has entries");
-            let mut term = dict.term(all[c].offer, all[c].entry);
-            let from = term.values.iter().map(|at| if all[c].is_linearized() { *at } else { 0.0 });
-            term.values = from.zip(score.values.iter()).map(|(from, by)| from + by).collect();
-            let (seen, gain) = (score.rank > 0, score.drop);
-            (c, Candidate { term, squares: squares.clone(), seen, gain })
+            let ranked = ranked.iter().find(|one| range.contains(&one.candidate));
+            let (at, score, gain) = match ranked {
+                Some(Ranked { candidate, score, gain, .. }) => (*candidate, score.clone(), *gain),
+                None => (range.start, screen.score(range.start), f64::NEG_INFINITY),
+            };
+            let term = self.term(&all[at], &score.values);
+            let (seen, drop) = (score.rank > 0, score.drop);
+            (at, Candidate { term, squares: squares.clone(), seen, drop, gain })
         };
         let mut candidates: Vec<(usize, Candidate)> = ranges.par_iter().map(best).collect();
-        let mut gains: Vec<f64> = candidates.iter().map(|(_, c)| c.takes()).collect();
+        let mut gains: Vec<f64> = candidates.iter().map(|(_, c)| c.gain).collect();
         gains.sort_by(|a, b| b.total_cmp(a));
         let least = gains.get(HELD_OUT).copied().unwrap_or(f64::NEG_INFINITY);
-        candidates.par_iter_mut().filter(|(_, c)| c.takes() > least).for_each(|(c, candidate)| {
-            candidate.squares = screen.held_out_by_block(&trained, Some(*c));
+        candidates.par_iter_mut().filter(|(_, c)| c.gain > least).for_each(|(at, candidate)| {
+            candidate.squares = screen.held_out_by_block(&trained, Some(*at));
         });
-        let p_values = p_values(&screen, &ranges, seed);
+        let p_values = p_values(&screen, &ranges, self.seed);
         let candidates = candidates.into_iter().map(|(_, candidate)| candidate).collect();
         Asked { squares, candidates, p_values }
     }
-}
-
-/// Candidates beside a fit.
-fn screen<'c, 's>(
-    fit: &Fitted,
-    sizes: &[f64],
-    (blocks, sums): (&Blocks, &Sums),
-    candidates: &'c [Linear<'s>],
-) -> Screen<'c, Linear<'s>> {
-    let entries: Vec<&Entry> = candidates.iter().map(|candidate| candidate.of).collect();
-    let of_blocks = sums.linearized(&fit.bordered().0, &entries, &weights(sizes));
-    let widths: Vec<usize> = candidates.iter().map(Columns::columns).collect();
-    let mut total = Products::zeros(fit.columns.len(), &widths);
-    let prior = total.clone();
-    of_blocks.iter().for_each(|block| total.add(block));
-    let basis = Basis::ordered(&total.zz);
-    let screen = Screen::new(candidates, basis, total, prior);
-    screen.by_block(of_blocks, Vec::new(), &blocks.fold, blocks.folds)
 }
 
 /// Of each offer, whose entries stand in a range, the chance that something unrelated looks as good among as
@@ -141,16 +187,4 @@ fn p_values(
         signs.p_value(&highest, own.fold(0.0, f64::max))
     };
     ranges.iter().map(found).collect()
-}
-
-impl Candidate {
-    /// What counts as one number: a direction does, however many it is told by.
-    pub fn things(&self) -> f64 {
-        self.term.effect.things() as f64
-    }
-
-    /// What it takes of the squares that are fitted, by each of its numbers.
-    pub fn takes(&self) -> f64 {
-        self.gain / self.things()
-    }
 }

@@ -21,6 +21,8 @@ pub struct Term {
     pub spot: Spot,
     /// Its numbers, SI.
     pub values: Vec<f64>,
+    /// By how much more evidence it had than any other in its place when last compared; 0 before.
+    pub margin: f64,
 }
 
 /// What is known of the rigid links.
@@ -52,7 +54,7 @@ impl Dictionary<'_> {
     pub fn term(&self, offer: usize, entry: usize) -> Term {
         let of = &self.offers[offer];
         let values = of.entries[entry].at.clone();
-        Term { offer, entry, effect: of.effect, spot: of.spot, values }
+        Term { offer, entry, effect: of.effect, spot: of.spot, values, margin: 0.0 }
     }
 
     /// Its columns there.

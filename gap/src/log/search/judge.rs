@@ -2,14 +2,16 @@
 
 use rayon::prelude::*;
 
-use super::along::{is_along, with_along};
+use super::along::is_along;
 use super::blocks::Blocks;
 use super::candidates::{Asked, Candidate};
 use super::dictionary::Dictionary;
+use super::explained::Explained;
 use super::fit::{Fitted, Links, Term};
-use super::{Round, friction, is_worse};
+use super::normal_equations::Sums;
+use super::{Search, is_worse};
 use crate::effects::Place;
-use crate::infer::constants::SIGNIFICANT;
+use crate::infer::constants::{DISTINGUISHABLE, SIGNIFICANT};
 use crate::log::effects::{LINKS, SCALE, Spot};
 
 /// What does as well as a finding may miss by a hair to be more than accident by itself: of a rival is asked only that
@@ -18,6 +20,9 @@ const RIVAL: f64 = 0.5;
 
 /// Rivals of one finding that are told.
 const RIVALS: usize = 5;
+
+/// The blocks, and the products of each.
+pub(super) type Divided<'d> = (&'d Blocks, &'d Sums);
 
 /// One finding beside all others.
 pub struct Judged {
@@ -45,6 +50,7 @@ impl Judged {
                 effect: LINKS,
                 spot: Spot::at(Place::Arm),
                 values: Vec::new(),
+                margin: 0.0,
             };
             self.rivals.push((links, ratio.sqrt()));
         }
@@ -55,85 +61,82 @@ impl Judged {
 pub struct Verdict {
     /// In the order in which they were added.
     pub findings: Vec<Judged>,
-    /// The model.
-    pub fit: Fitted,
-    /// Size of what it leaves of each joint.
-    pub sizes: Vec<f64>,
-    /// Correlation time of what it leaves in each joint, s.
-    pub correlation: Vec<f64>,
+    /// The model, and the noise that it leaves.
+    pub now: Explained,
     /// How the time is divided.
     pub blocks: Blocks,
 }
 
-/// Judges each term beside the others, and drops those that are not told from accident, without which no more of the
-/// held-out blocks is left, or which have become what no such thing is, one after the other. What stands beside another on any such arm is tried once more
-/// without them.
-pub fn judged(dict: &Dictionary<'_>, last: &Round, offers: &[usize], seed: u64) -> Verdict {
-    let (mut fit, mut sizes) = (last.fit.clone(), last.sizes.clone());
-    let mut tried = false;
-    loop {
-        // Were a finding unrelated, what is left would be left without it too: so long are the blocks.
-        let correlation = fit.correlation(dict);
-        let longest = correlation.iter().copied().fold(0.0, f64::max);
-        let blocks = dict.blocks(longest);
-        let sums = dict.sums(&blocks);
-        let divided = (&blocks, &sums);
-        let without = |k: usize| -> Judged {
-            let mut others = fit.terms.clone();
-            let term = others.remove(k);
-            let near = |offer: &&usize| dict.offers[**offer].spot.meets(term.spot);
-            let asked: Vec<usize> = offers.iter().filter(near).copied().collect();
-            let lacks = Fitted::of(dict, &others, &fit.links, &sizes);
-            let mut judged =
-                Asked::lacking(dict, &lacks, &sizes, divided, &asked, seed).judge(dict, term);
-            let own = judged.squares.iter().sum::<f64>();
-            let instead =
-                friction::instead(dict, &fit, &judged.term, &sizes, divided, &judged.squares, seed);
-            for (rival, left) in instead {
-                let is_it = |(t, _): &(Term, f64)| t.offer == rival.offer;
-                if !judged.rivals.iter().any(is_it) {
-                    judged.rivals.push((rival, (left.iter().sum::<f64>() / own).sqrt()));
+impl Search<'_, '_> {
+    /// Judges each term beside the others, and drops those that are not told from accident, without which no more of
+    /// the held-out blocks is left, or which have become what no such thing is, one after the other. What stands beside
+    /// another on any such arm is tried once more without them.
+    pub(super) fn judged(&self, mut now: Explained) -> Verdict {
+        let mut tried = false;
+        loop {
+            // Were a finding unrelated, what is left would be left without it too: so long are the blocks.
+            let longest = now.correlation.iter().copied().fold(0.0, f64::max);
+            let blocks = self.dict.blocks(longest);
+            let sums = self.dict.sums(&blocks);
+            let divided = (&blocks, &sums);
+            let each = (0..now.fit.terms.len()).into_par_iter();
+            let all: Vec<Judged> = each.map(|k| self.judge(&now, k, divided)).collect();
+            let wrong = |j: &Judged| !self.dict.case.is_feasible(&j.term);
+            let is_idle = |j: &Judged| j.p_value > SIGNIFICANT || !j.shrinks;
+            let doubted =
+                |j: &Judged| wrong(j) || (is_idle(j) && !is_along(&j.term, &now.fit.terms));
+            let worst = (0..all.len()).filter(|k| doubted(&all[*k])).max_by(|a, b| {
+                let doubt = |k: &usize| (wrong(&all[*k]), !all[*k].shrinks, all[*k].p_value);
+                let (a, b) = (doubt(a), doubt(b));
+                (a.0, a.1).cmp(&(b.0, b.1)).then(a.2.total_cmp(&b.2))
+            });
+            let terms = match worst {
+                None => {
+                    let terms = self.with_along(now.fit.terms.clone());
+                    if tried || terms.len() == now.fit.terms.len() {
+                        return Verdict { findings: all, now, blocks };
+                    }
+                    tried = true;
+                    terms
                 }
-            }
-            if fit.links != Links::Free
-                && judged.term.effect.carried(dict.case.arm, judged.term.spot).is_none()
-            {
-                let free = Fitted::of(dict, &others, &Links::Free, &sizes);
-                let squares = Asked::of(dict, &free, &sizes, divided, &[], seed).squares;
-                judged.beside_links(&squares);
-            }
-            judged
-        };
-        let all: Vec<Judged> = (0..fit.terms.len()).into_par_iter().map(without).collect();
-        let wrong = |j: &Judged| !dict.case.is_feasible(&j.term);
-        let is_idle = |j: &Judged| j.p_value > SIGNIFICANT || !j.shrinks;
-        let doubted = |j: &Judged| wrong(j) || (is_idle(j) && !is_along(&j.term, &fit.terms));
-        let worst = (0..all.len()).filter(|k| doubted(&all[*k])).max_by(|a, b| {
-            let doubt = |k: &usize| (wrong(&all[*k]), !all[*k].shrinks, all[*k].p_value);
-            let (a, b) = (doubt(a), doubt(b));
-            (a.0, a.1).cmp(&(b.0, b.1)).then(a.2.total_cmp(&b.2))
-        });
-        match worst {
-            None => {
-                let terms = with_along(dict, fit.terms.clone(), offers);
-                if tried || terms.len() == fit.terms.len() {
-                    return Verdict { findings: all, fit, sizes, correlation, blocks };
+                Some(worst) => {
+                    let mut terms = now.fit.terms.clone();
+                    let gone = terms.remove(worst);
+                    // What stood beside it alone goes with it; beside the robot file's it may be found again.
+                    terms.retain(|t| {
+                        t.spot != gone.spot || t.effect.beside() != Some(gone.effect.identifier())
+                    });
+                    terms
                 }
-                tried = true;
-                fit = Fitted::of(dict, &terms, &fit.links, &sizes);
-                sizes = fit.sizes(dict);
-            }
-            Some(worst) => {
-                let mut terms = fit.terms.clone();
-                let gone = terms.remove(worst);
-                // What stood beside it alone goes with it; beside the robot file's it may be found again.
-                terms.retain(|t| {
-                    t.spot != gone.spot || t.effect.beside() != Some(gone.effect.identifier())
-                });
-                fit = Fitted::of(dict, &terms, &fit.links, &sizes);
-                sizes = fit.sizes(dict);
+            };
+            now = self.told(&terms, &now.sizes);
+        }
+    }
+
+    /// A term beside all others.
+    fn judge(&self, now: &Explained, term: usize, divided: Divided<'_>) -> Judged {
+        let dict = self.dict;
+        let mut others = now.fit.terms.clone();
+        let term = others.remove(term);
+        let near = |offer: &&usize| dict.offers[**offer].spot.meets(term.spot);
+        let near: Vec<usize> = self.offers.iter().filter(near).copied().collect();
+        let lacks = self.fitted(&others, now);
+        let mut judged = self.lacking(&lacks, divided, &near).judge(dict, term);
+        let own = judged.squares.iter().sum::<f64>();
+        for (rival, left) in self.instead(now, &judged.term, divided, &judged.squares) {
+            let is_it = |(t, _): &(Term, f64)| t.offer == rival.offer;
+            if !judged.rivals.iter().any(is_it) {
+                judged.rivals.push((rival, (left.iter().sum::<f64>() / own).sqrt()));
             }
         }
+        if *self.links != Links::Free
+            && judged.term.effect.carried(dict.case.arm, judged.term.spot).is_none()
+        {
+            let fit = Fitted::of(dict, &others, &Links::Free, &now.sizes);
+            let free = Explained { fit, ..now.clone() };
+            judged.beside_links(&self.asked(&free, divided, &[]).squares);
+        }
+        judged
     }
 }
 
@@ -143,7 +146,7 @@ fn has_it_in(dict: &Dictionary<'_>, body: &Candidate, scale: &Candidate) -> bool
     let is_scale = scale.term.effect.identifier() == SCALE.identifier();
     let is_body = body.term.effect.carried(dict.case.arm, body.term.spot).is_some();
     let is_all = scale.term.spot.place == Place::Arm;
-    is_scale && is_all && is_body && body.takes() >= ALL * scale.takes()
+    is_scale && is_all && is_body && body.drop >= ALL * scale.drop
 }
 
 /// What is taken by more columns is as much but for the rounding of products of thousands of rows.
@@ -158,14 +161,15 @@ impl Asked {
             return Judged { term, p_value: 1.0, squares, shrinks: false, rivals };
         };
         let left = |k: usize| self.candidates[k].squares.iter().sum::<f64>();
-        let best = &self.candidates[own].squares;
+        let Candidate { squares: best, gain, .. } = &self.candidates[own];
         let mut rivals: Vec<usize> = (0..self.candidates.len())
             .filter(|k| {
                 let rival = &self.candidates[*k];
                 *k != own
                     && self.p_values[*k] <= RIVAL
                     && dict.case.is_feasible(&rival.term)
-                    && (!is_worse(&rival.squares, best)
+                    && (gain - rival.gain <= DISTINGUISHABLE
+                        || !is_worse(&rival.squares, best)
                         || has_it_in(dict, rival, &self.candidates[own]))
             })
             .collect();

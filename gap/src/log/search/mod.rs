@@ -1,8 +1,8 @@
-//! Looking for effects in a log: forwards, by held-out blocks of time.
+//! Looking for effects in a log: forwards, by evidence, confirmed on held-out blocks of time.
 //!
-//! Each round fits the model, divides the time by the correlation of what is left, and asks of every
-//! effect at every place what it leaves of the blocks that its fit has not seen, and how likely chance
-//! among as many is to do as well. The best that chance does not explain is added. At the end every
+//! Each round fits the model, divides the time by the correlation of what is left, and ranks every effect at every
+//! place by its evidence. The best that chance does not explain, by the signs of whole blocks, and that leaves less of
+//! the blocks that its fit has not seen is added. What another explains better then is exchanged for it. At the end every
 //! finding is asked again beside all others, and what else would do instead is told.
 
 mod along;
@@ -12,7 +12,7 @@ pub mod case;
 pub mod converge;
 pub mod delay;
 pub mod dictionary;
-mod exchange;
+pub mod explained;
 pub mod fit;
 mod friction;
 pub mod judge;
@@ -25,16 +25,17 @@ pub mod springs;
 pub mod unseen;
 
 use blocks::Blocks;
-use candidates::{Asked, Candidate};
+use candidates::{Asked, Candidate, Linear};
 use case::{Case, Simple, Wanted};
 use dictionary::Dictionary;
-use fit::{Fitted, Links, Term};
+use explained::Explained;
+use fit::{Links, Term};
 use normal_equations::Sums;
 
-use super::effects::{CATALOGUE, Catalogue, LogEffect, Spot};
+use super::effects::{Catalogue, LogEffect};
 use super::scene::Loads;
 use super::signal::Signals;
-use crate::infer::constants::SIGNIFICANT;
+use crate::infer::constants::{LOOSE, SIGNIFICANT};
 use crate::infer::students_t;
 
 /// So many candidates are asked again by blocks of their own.
@@ -43,14 +44,23 @@ const AGAIN: usize = 4;
 /// No log shows more.
 const MOST: usize = 80;
 
+/// Everything that a search works with.
+pub struct Search<'s, 'a> {
+    /// The log.
+    pub dict: &'s Dictionary<'a>,
+    /// What is known of the rigid links.
+    pub links: &'s Links,
+    /// Which of the dictionary's offers are asked for.
+    pub offers: &'s [usize],
+    /// Of random signs.
+    pub seed: u64,
+    candidates: Vec<Linear<'s>>,
+}
+
 /// One round: a model, and what could be added to it.
 pub struct Round {
     /// The model.
-    pub fit: Fitted,
-    /// Size of what it leaves of each joint.
-    pub sizes: Vec<f64>,
-    /// Correlation time of that, of each joint, s.
-    pub correlation: Vec<f64>,
+    pub now: Explained,
     /// How the time is divided.
     pub blocks: Blocks,
     /// Who was asked, and what they said.
@@ -79,45 +89,46 @@ pub fn wanted(
     asked.flat_map(at).collect()
 }
 
-impl Round {
-    /// Fits the terms and asks for others among the offers.
-    pub fn of(
-        dict: &Dictionary<'_>,
-        terms: &[Term],
-        links: &Links,
-        sizes: &[f64],
-        offers: &[usize],
+impl<'s, 'a> Search<'s, 'a> {
+    /// Of a log, among some of its offers.
+    pub fn new(
+        dict: &'s Dictionary<'a>,
+        links: &'s Links,
+        offers: &'s [usize],
         seed: u64,
-    ) -> Round {
-        let fit = Fitted::of(dict, terms, links, sizes);
-        // Once more, each joint told in what is left of it.
-        let fit = Fitted::of(dict, &fit.terms, links, &fit.sizes(dict));
-        let sizes = fit.sizes(dict);
-        let correlation = fit.correlation(dict);
+    ) -> Search<'s, 'a> {
+        let mut search = Search { dict, links, offers, seed, candidates: Vec::new() };
+        search.candidates = search.linear(offers);
+        search
+    }
+
+    /// Fits the terms and asks for others among the offers.
+    pub fn round(&self, terms: &[Term], sizes: &[f64]) -> Round {
+        let now = self.explained(terms, sizes);
         let divided = |correlation: &[f64]| {
             let longest = correlation.iter().copied().fold(0.0, f64::max);
-            dict.blocks(longest)
+            self.dict.blocks(longest)
         };
         let ask = |blocks: &Blocks| {
-            let sums = dict.sums(blocks);
-            Asked::lacking(dict, &fit, &sizes, (blocks, &sums), offers, seed)
+            let sums = self.dict.sums(blocks);
+            self.lacking(&now, (blocks, &sums), self.offers)
         };
-        let blocks = divided(&correlation);
+        let blocks = divided(&now.correlation);
         let asked = ask(&blocks);
         let finest = divided(&[]).all.len();
-        let round = Round { fit: fit.clone(), sizes: sizes.clone(), correlation, blocks, asked };
+        let round = Round { now: now.clone(), blocks, asked };
         if round.blocks.all.len() == finest {
             return round;
         }
         // What is left remembers long while something slow is missing, and few blocks tell nothing. Were a
         // candidate unrelated, what is left would be left with it too: so long are the blocks. It is asked before
-        // what takes less, and would be taken for it bit by bit.
-        let best = round.best(dict.case).map_or(0.0, Candidate::takes);
-        let most = round.asked.most(dict.case, best);
+        // what has less evidence, and would be taken for it bit by bit.
+        let best = round.best(self.dict.case).map_or(0.0, |best| best.gain);
+        let most = round.asked.most(self.dict.case, best);
         let looks = 1.0 + most.len() as f64;
         for most in most {
-            let with: Vec<Term> = fit.terms.iter().chain([&most.term]).cloned().collect();
-            let correlation = Fitted::of(dict, &with, links, &sizes).correlation(dict);
+            let with: Vec<Term> = now.fit.terms.iter().chain([&most.term]).cloned().collect();
+            let correlation = self.fitted(&with, &now).fit.correlation(self.dict);
             let blocks = divided(&correlation);
             if blocks.all.len() <= round.blocks.all.len() {
                 continue;
@@ -128,98 +139,66 @@ impl Round {
                 let is_it = candidate.term.offer == most.term.offer;
                 *p_value = if is_it { (looks * *p_value).min(1.0) } else { 1.0 };
             }
-            let (fit, sizes) = (fit.clone(), sizes.clone());
-            let again = Round { correlation, blocks, asked, fit, sizes };
-            if again.best(dict.case).is_some() {
+            let again = Round { now: now.clone(), blocks, asked };
+            if again.best(self.dict.case).is_some() {
                 return again;
             }
         }
         round
     }
 
-    /// The candidate that takes most of what is held out by each of its numbers, of those that chance
-    /// does not explain.
+    /// Asks a model for those of the offers that it lacks.
+    fn lacking(&self, now: &Explained, divided: (&Blocks, &Sums), offers: &[usize]) -> Asked {
+        let terms: Vec<&Term> = now.fit.terms.iter().collect();
+        let offers = offers.iter().copied().filter(|offer| self.lacks(&terms, *offer));
+        self.asked(now, divided, &offers.collect::<Vec<_>>())
+    }
+
+    /// Looks for effects beside some terms, one after the other. `each` is told every round; the last, in which none
+    /// was added, is returned.
+    pub fn run(&self, terms: &[Term], each: &mut dyn FnMut(&Round)) -> Round {
+        let mut sizes = vec![1.0; self.dict.case.signals.joints()];
+        if terms.is_empty() {
+            sizes = self.dict.sizes(&[self.dict.left(self.links, &[])], &[1.0]);
+        }
+        let mut terms = terms.to_vec();
+        let mut rounds = 0;
+        loop {
+            let round = self.round(&terms, &sizes);
+            each(&round);
+            let more = self.next(&round);
+            let Some(more) = more.filter(|_| rounds < MOST) else { return round };
+            rounds += 1;
+            terms = self.with_along(more);
+            sizes = round.now.sizes;
+        }
+    }
+}
+
+impl Round {
+    /// The candidate that has most evidence, of those that chance does not explain and that leave less of what is held
+    /// out.
     pub fn best(&self, case: &Case<'_>) -> Option<&Candidate> {
         let Asked { squares, candidates, p_values } = &self.asked;
         let whole: f64 = squares.iter().sum();
         let left = |c: &Candidate| c.squares.iter().sum::<f64>();
-        let gain = |c: &Candidate| (whole - left(c)) / c.things();
-        let told =
-            candidates.iter().zip(p_values).filter(|(_, p)| **p <= SIGNIFICANT).map(|(c, _)| c);
+        let told = candidates.iter().zip(p_values);
+        let told = told.filter(|(c, p)| **p <= SIGNIFICANT && c.gain > 0.0).map(|(c, _)| c);
         let told = told.filter(|c| left(c) < whole && case.is_feasible(&c.term));
-        told.max_by(|a, b| gain(a).total_cmp(&gain(b)))
+        told.max_by(|a, b| a.gain.total_cmp(&b.gain))
     }
 }
 
 impl Asked {
-    /// The candidates that chance may explain and that take most by each of their numbers, more than so much; that
-    /// which does first.
+    /// The candidates that chance may explain and that have most evidence, more than so much; that which has most
+    /// first.
     fn most(&self, case: &Case<'_>, least: f64) -> Vec<&Candidate> {
-        let open = self
-            .candidates
-            .iter()
-            .zip(&self.p_values)
-            .filter(|(_, p_value)| **p_value > SIGNIFICANT);
+        let open = self.candidates.iter().zip(&self.p_values).filter(|(_, p)| **p > SIGNIFICANT);
         let may = open.map(|(c, _)| c).filter(|c| case.is_feasible(&c.term));
-        let mut most: Vec<&Candidate> = may.filter(|c| c.takes() > least).collect();
-        most.sort_by(|a, b| b.takes().total_cmp(&a.takes()));
+        let mut most: Vec<&Candidate> = may.filter(|c| c.gain > least).collect();
+        most.sort_by(|a, b| b.gain.total_cmp(&a.gain));
         most.truncate(AGAIN);
         most
-    }
-
-    /// Asks a model for those of the offers that it lacks.
-    fn lacking(
-        dict: &Dictionary<'_>,
-        fit: &Fitted,
-        sizes: &[f64],
-        divided: (&Blocks, &Sums),
-        offers: &[usize],
-        seed: u64,
-    ) -> Asked {
-        let has = |name: &str, spot: Spot| {
-            fit.terms.iter().any(|t| t.effect.identifier() == name && t.spot == spot)
-        };
-        let loads = Loads::default();
-        let simple = Simple::default();
-        let scene = dict.case.scene(&simple, dict.case.signals, &loads);
-        let stands = |name: &str, spot: Spot| {
-            let named = CATALOGUE.iter().find(|e| e.identifier() == name);
-            has(name, spot) || named.is_some_and(|e| e.in_file(&scene, spot))
-        };
-        let lacks = |offer: &&usize| {
-            let of = &dict.offers[**offer];
-            !has(of.effect.identifier(), of.spot)
-                && of.effect.beside().is_none_or(|other| stands(other, of.spot))
-        };
-        let asked: Vec<usize> = offers.iter().filter(lacks).copied().collect();
-        Asked::of(dict, fit, sizes, divided, &asked, seed)
-    }
-}
-
-/// Looks for effects among the offers beside some terms, one after the other. `each` is told every
-/// round; the last, in which none was added, is returned.
-pub fn search(
-    dict: &Dictionary<'_>,
-    terms: &[Term],
-    links: &Links,
-    offers: &[usize],
-    seed: u64,
-    each: &mut dyn FnMut(&Round),
-) -> Round {
-    let mut sizes = vec![1.0; dict.case.signals.joints()];
-    if terms.is_empty() {
-        sizes = dict.sizes(&[dict.left(links, &[])], &[1.0]);
-    }
-    let mut terms = terms.to_vec();
-    let mut rounds = 0;
-    loop {
-        let round = Round::of(dict, &terms, links, &sizes, offers, seed);
-        each(&round);
-        let more = friction::next(dict, &round, offers, seed);
-        let Some(more) = more.filter(|_| rounds < MOST) else { return round };
-        rounds += 1;
-        terms = along::with_along(dict, more, offers);
-        sizes = round.sizes;
     }
 }
 

@@ -2,12 +2,11 @@
 
 use rayon::prelude::*;
 
+use super::Search;
 use super::blocks::Blocks;
-use super::converge::converged;
 use super::dictionary::Dictionary;
 use super::fit::Links;
 use super::normal_equations::quadratic;
-use super::search;
 
 /// Root mean square that is left of each joint by what a search finds that has not seen a fold, over all
 /// folds; 0 of a joint that has no rows.
@@ -17,8 +16,9 @@ pub fn nested(dict: &Dictionary<'_>, blocks: &Blocks, links: &Links, seed: u64) 
     let sums = dict.sums(blocks);
     let of_fold = |fold: usize| -> Vec<f64> {
         let seen = dict.without(blocks, fold);
-        let last = search(&seen, &[], links, &offers, seed, &mut |_| {});
-        let (columns, values) = converged(&seen, &last, &offers, seed, &mut |_| {}).fit.bordered();
+        let search = Search::new(&seen, links, &offers, seed);
+        let last = search.run(&[], &mut |_| {});
+        let (columns, values) = search.converged(&last, &mut |_| {}).now.fit.bordered();
         let values = nalgebra::DVector::from_vec(values);
         let left = |joint: usize| {
             let alone: Vec<f64> = (0..joints).map(|j| f64::from(u8::from(j == joint))).collect();

@@ -33,7 +33,7 @@ pub struct Springs {
 impl Springs {
     /// Of a log's model and the joints that may have a spring.
     pub fn of(dict: &Dictionary<'_>, verdict: &Verdict) -> Springs {
-        let fit = &verdict.fit;
+        let fit = &verdict.now.fit;
         let effect = if dict.case.kind.0 == Domain::Position { DROOP } else { ELASTICITY };
         let is_spring = |of: &dyn LogEffect| of.identifier() == effect.identifier();
         let (mut columns, fitted) = (fit.columns.clone(), fit.columns.len());
@@ -58,7 +58,7 @@ impl Springs {
             asked.push((joint, column, known.map(|k| k.values[0]).sum()));
         }
         columns.push(fit.left.clone());
-        let weights = weights(&verdict.sizes);
+        let weights = weights(&verdict.now.sizes);
         let whole = dict.whole().squares(&columns, &weights);
         let n = columns.len();
         let products = sum(whole.iter()).unwrap_or_else(|| DMatrix::zeros(n, n));

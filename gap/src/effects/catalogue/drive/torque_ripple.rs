@@ -17,7 +17,6 @@ const TORQUE: &Facts = &Facts {
         Parameter::free("sin", Quantity::Moment),
     ],
     bends: true,
-    counts_once: true,
     ..Facts::TORQUE
 };
 

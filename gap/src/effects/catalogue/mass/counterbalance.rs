@@ -100,7 +100,6 @@ const TORQUE: &Facts = &Facts {
         Parameter::free("cos", Quantity::Moment),
         Parameter::free("sin", Quantity::Moment),
     ],
-    counts_once: true,
     ..Facts::TORQUE
 };
 

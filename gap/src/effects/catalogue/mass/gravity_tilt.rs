@@ -108,7 +108,6 @@ const TORQUE: &Facts = &Facts {
         Parameter::free("rz", Quantity::Angle),
     ],
     at: At::Base,
-    counts_once: true,
     ..Facts::TORQUE
 };
 

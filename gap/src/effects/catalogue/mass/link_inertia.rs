@@ -14,7 +14,6 @@ const TORQUE: &Facts = &Facts {
     formula: "τ → τ + Y(q, q̇, q̈) φ, φ the ten numbers",
     parameters: &BODY,
     at: At::Links,
-    counts_once: true,
     ..Facts::TORQUE
 };
 

@@ -16,7 +16,6 @@ const TORQUE: &Facts = &Facts {
     formula: "τ → τ + Y(q, q̇, q̈) φ in runs of one name, φ the ten numbers",
     parameters: &BODY,
     at: At::Held,
-    counts_once: true,
     ..Facts::TORQUE
 };
 

@@ -67,8 +67,8 @@ impl By {
 /// On what the residual of a verdict depends beyond chance, of all joints and quantities; the largest share
 /// first.
 pub fn dependences(dict: &Dictionary<'_>, verdict: &Verdict, seed: u64) -> Vec<Dependence> {
-    let left = verdict.fit.sampled(dict);
-    let all = quantity::all(dict, &verdict.fit, &left);
+    let left = verdict.now.fit.sampled(dict);
+    let all = quantity::all(dict, &verdict.now.fit, &left);
     let found = beyond_chance(dict, &left, &all, &verdict.blocks, seed, |_, _| true);
     if !found.is_empty() {
         return found;

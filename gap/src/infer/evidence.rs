@@ -3,7 +3,7 @@
 
 use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
 
-use crate::infer::Score;
+use super::score::Score;
 
 /// A fall of squares beyond this, in units of the variance, is no chance with any number of
 /// parameters that an effect has; the distributions' tails are not asked there.
@@ -29,7 +29,7 @@ impl Scale {
         (if self.known { own.max(1.0) } else { own }).max(f64::MIN_POSITIVE)
     }
 
-    /// What an effect costs whose numbers have a [price](crate::infer::price) and which had so many
+    /// What a term costs whose numbers have a [price](super::price) and which had so many
     /// multiplicity: its places and forms, each as likely as the others beforehand.
     pub(crate) fn cost(price: f64, multiplicity: usize) -> f64 {
         price + 2.0 * (multiplicity.max(1) as f64).ln()
