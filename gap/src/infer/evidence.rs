@@ -20,6 +20,8 @@ pub(crate) struct Scale {
     pub(crate) known: bool,
     /// Numbers that are measured.
     pub(crate) numbers: usize,
+    /// The part of them that is independent, by which their squares are weighted: 1 of white noise.
+    pub(crate) independent: f64,
 }
 
 impl Scale {
@@ -36,7 +38,12 @@ impl Scale {
     }
 
     pub(crate) fn freedom(&self, parameters: usize) -> f64 {
-        self.numbers.saturating_sub(parameters).max(1) as f64
+        self.numbers.saturating_sub(parameters).max(1) as f64 * self.independent
+    }
+
+    /// Independent numbers.
+    pub(crate) fn count(&self) -> usize {
+        (self.numbers as f64 * self.independent) as usize
     }
 
     /// The chance that noise makes a fall as large with so many parameters, `tried` candidates
@@ -66,7 +73,7 @@ mod tests {
 
     #[test]
     fn known_noise_gives_the_chi_squared_chance() {
-        let scale = Scale { known: true, numbers: 100 };
+        let scale = Scale { known: true, numbers: 100, independent: 1.0 };
         let values = nalgebra::DVector::zeros(1);
         let score = Score { drop: 3.841_458_8, values, rank: 1, own: 1.0 };
         let p_value = scale.p_value(&score, 90.0, 0, 1);

@@ -46,7 +46,7 @@ impl<C: Columns> Screen<'_, C> {
                 let it = &self.candidates[candidate];
                 let own = || {
                     let own = self.own(candidate);
-                    own.price(it.held(), &score.values, scale.numbers, variance)
+                    own.price(it.held(), &score.values, scale.count(), variance)
                 };
                 let cost = cost.unwrap_or_else(|| Scale::cost(own(), it.multiplicity()));
                 let gain = score.drop / variance - cost;

@@ -106,7 +106,7 @@ fn variance<O: Observations>(data: &O, now: &O::Fit) -> f64 {
 /// Cost of the terms of a model, of some in the place of others by the `variance` that is left.
 pub(crate) fn costs<O: Observations>(data: &O, now: &O::Fit, variance: f64) -> Vec<f64> {
     let basis = Basis::new(&data.normal(now));
-    let numbers = data.scale(now).numbers;
+    let numbers = data.scale(now).count();
     let terms = data.terms(now);
     let mut at = terms.nuisances;
     let cost = |term: &Weighed<'_>| {

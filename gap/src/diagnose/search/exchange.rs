@@ -22,7 +22,7 @@ impl Observations for Search<'_, '_> {
     }
 
     fn scale(&self, now: &Explained) -> Scale {
-        Scale { known: now.noise.is_known(), numbers: self.problem.numbers() }
+        Scale { known: now.noise.is_known(), numbers: self.problem.numbers(), independent: 1.0 }
     }
 
     fn left_by(&self, now: &Explained, by: &Explained) -> f64 {

@@ -54,14 +54,8 @@ impl<'s> Search<'s, '_> {
 
     /// What the rows of each joint weigh.
     pub(super) fn weights(&self, now: &Explained) -> Vec<f64> {
-        let rows: f64 = self.dict.used.iter().sum();
-        let each = self.numbers(now) / rows.max(1.0);
-        weights(&now.sizes).into_iter().map(|weight| each * weight).collect()
-    }
-
-    /// Independent numbers that the rows hold.
-    fn numbers(&self, now: &Explained) -> f64 {
-        effective(&self.dict.used, &now.correlation, self.dict.case.signals)
+        let part = self.scale(now).independent;
+        weights(&now.sizes).into_iter().map(|weight| part * weight).collect()
     }
 
     fn entry(&self, term: &Term) -> &Linear<'s> {
@@ -101,7 +95,9 @@ impl<'s> Observations for Search<'s, '_> {
     }
 
     fn scale(&self, now: &Explained) -> Scale {
-        Scale { known: false, numbers: self.numbers(now) as usize }
+        let rows: f64 = self.dict.used.iter().sum();
+        let own = effective(&self.dict.used, &now.correlation, self.dict.case.signals);
+        Scale { known: false, numbers: rows as usize, independent: own / rows.max(1.0) }
     }
 
     fn left_by(&self, now: &Explained, by: &Explained) -> f64 {
