@@ -2,7 +2,7 @@
 //!
 //! Where the file has friction that the arm has not, each of its two numbers by itself would take away more than there
 //! is, or one number that is in proportion to both (a torque's scale) or bends between them (a curve) does as well. Both are
-//! therefore tried together before anything else is named at such a joint.
+//! therefore tried together, and in place of anything else that is named at such a joint.
 
 use super::candidates::Candidate;
 use super::explained::Explained;
@@ -24,26 +24,41 @@ impl Search<'_, '_> {
     /// A round's terms and what they lack most; `None` if chance explains all that is left.
     pub(super) fn next(&self, round: &Round) -> Option<Vec<Term>> {
         let now = &round.now;
-        let best = round.best(self.dict.case);
-        let with_best = best.map(|best| {
+        let with_best = round.best(self.dict.case).map(|best| {
             let terms: Vec<Term> = now.fit.terms.iter().chain([&best.term]).cloned().collect();
             self.fitted(&terms, now)
         });
         let before = with_best.as_ref().unwrap_or(now);
-        let at_best = best.filter(|best| !is_either(best.term.effect));
-        let at_best = at_best.and_then(|best| best.term.spot.joint());
-        let mut joints: Vec<usize> = at_best.into_iter().chain(self.too_much(round)).collect();
+        let mut joints: Vec<usize> = self.too_much(round).collect();
         joints.dedup();
         let both =
             joints.into_iter().filter_map(|joint| self.with_both(&now.fit.terms, joint, now));
-        // By the noise of either.
-        let is_better = |both: &Explained| {
-            [before, both].iter().all(|by| against(self, both, by) < against(self, before, by))
-        };
         let worth = |both: &Explained| against(self, both, now);
-        let both = both.filter(is_better).min_by(|a, b| worth(a).total_cmp(&worth(b)));
+        let both = both.filter(|both| self.is_better(both, before));
+        let both = both.min_by(|a, b| worth(a).total_cmp(&worth(b)));
         let more = both.or(with_best)?;
-        Some(self.pruned(self.explained(&more.fit.terms, &now.sizes)).fit.terms)
+        let pruned = self.pruned(self.explained(&more.fit.terms, &now.sizes));
+        Some(self.with_friction(pruned).fit.terms)
+    }
+
+    /// Whether a model has more evidence than another, by the noise of either.
+    fn is_better(&self, one: &Explained, other: &Explained) -> bool {
+        [one, other].iter().all(|by| against(self, one, by) < against(self, other, by))
+    }
+
+    /// A model with both in place of what has less evidence than they at their joint.
+    fn with_friction(&self, mut now: Explained) -> Explained {
+        let instead = |now: &Explained, term: usize| {
+            let joint = now.fit.terms[term].spot.joint()?;
+            let mut others = now.fit.terms.clone();
+            let is_other = !is_either(others.remove(term).effect);
+            let both = is_other.then(|| self.with_both(&others, joint, now)).flatten()?;
+            self.is_better(&both, now).then(|| self.explained(&both.fit.terms, &now.sizes))
+        };
+        while let Some(next) = (0..now.fit.terms.len()).find_map(|term| instead(&now, term)) {
+            now = next;
+        }
+        now
     }
 
     /// Joints at which one of both would take away more friction than there is.

@@ -13,8 +13,8 @@ const TORQUE: &Facts = &Facts {
     confused_with: "All inertias, exactly so if all joints have the same.",
     separated_by: "A known payload: the same motion with and without.",
     formula: "τ → (1 + scale) τ",
-    // Torque constants of one type of motor scatter by a few hundredths; data sheets allow a tenth.
-    parameters: &[Parameter::at_least("scale", Quantity::Ratio, (-1.0_f64).next_up()).usually(0.03)],
+    // Torque constants of one type of motor scatter by a tenth in makers' data sheets.
+    parameters: &[Parameter::at_least("scale", Quantity::Ratio, (-1.0_f64).next_up()).usually(0.1)],
     at: At::JointsAndArm,
     ..Facts::TORQUE
 };
