@@ -69,20 +69,9 @@ impl Unseen {
         }
     }
 
-    /// Covariance of the values of a fit, by the same blocks: each is left out, `(A − A_b)⁻¹ s_b`, since with as many values as
-    /// blocks each draws the values to itself (jackknife: Bell & McCaffrey 2002); zero of what they do not determine.
+    /// [`covariance`] of the values of a fit, by the same blocks.
     pub fn covariance(&self, values: &[f64]) -> DMatrix<f64> {
-        let (n, count) = (values.len(), self.products.len() as f64);
-        let Some(whole) = sum(self.products.iter()) else { return DMatrix::zeros(n, n) };
-        let left = DVector::from_fn(n + 1, |k, _| values.get(k).map_or(1.0, |x| -x));
-        let change = |product: &DMatrix<f64>| {
-            let others = (&whole - product).view((0, 0), (n, n)).into_owned();
-            let t = Basis::ordered(&others).t;
-            &t * t.tr_mul(&(product.rows(0, n) * &left))
-        };
-        let changes: Vec<_> = self.products.par_iter().map(change).collect();
-        let changes = DMatrix::from_columns(&changes);
-        &changes * changes.transpose() * ((count - 1.0) / count)
+        covariance(&self.products, values)
     }
 
     /// Standard deviation of the logarithm of what is left over what `before` leaves of the same blocks, the
@@ -127,16 +116,25 @@ fn without(products: &[DMatrix<f64>], blocks: &Blocks, fold: usize) -> DVector<f
     DVector::from_vec(minimum(&others)).push(-1.0)
 }
 
-/// Blocks as the independent numbers that they are: `A⁻¹ (Σ s_b s_bᵀ) A⁻¹` (Liang & Zeger 1986), with
-/// Student's t of as many.
-pub(super) fn half_widths(products: &[DMatrix<f64>], values: &[f64]) -> Vec<f64> {
-    let n = values.len();
-    let count = products.len() as f64;
-    let Some(whole) = sum(products.iter()) else { return vec![0.0; n] };
+/// Covariance of the values of a fit by the products of blocks: each block is left out, `(A − A_b)⁻¹ s_b`, since with as
+/// many values as blocks each draws the values to itself (jackknife: Bell & McCaffrey 2002); zero of what they do not
+/// determine.
+fn covariance(products: &[DMatrix<f64>], values: &[f64]) -> DMatrix<f64> {
+    let (n, count) = (values.len(), products.len() as f64);
+    let Some(whole) = sum(products.iter()) else { return DMatrix::zeros(n, n) };
     let left = DVector::from_fn(n + 1, |k, _| values.get(k).map_or(1.0, |x| -x));
-    let pulls: Vec<_> = products.iter().map(|product| product.rows(0, n) * &left).collect();
-    let t = Basis::ordered(&whole.view((0, 0), (n, n)).into_owned()).t;
-    let solved = &t * t.tr_mul(&DMatrix::from_columns(&pulls));
-    let off = students_t(count - 1.0, 0.975) * (count / (count - 1.0)).sqrt();
-    (0..n).map(|k| off * solved.row(k).norm()).collect()
+    let change = |product: &DMatrix<f64>| {
+        let others = (&whole - product).view((0, 0), (n, n)).into_owned();
+        let t = Basis::ordered(&others).t;
+        &t * t.tr_mul(&(product.rows(0, n) * &left))
+    };
+    let changes: Vec<_> = products.par_iter().map(change).collect();
+    let changes = DMatrix::from_columns(&changes);
+    &changes * changes.transpose() * ((count - 1.0) / count)
+}
+
+/// Half the widths of 95 % intervals of the values of a fit: Student's t of as many numbers as there are blocks.
+pub(super) fn half_widths(products: &[DMatrix<f64>], values: &[f64]) -> Vec<f64> {
+    let off = students_t(products.len() as f64 - 1.0, 0.975);
+    covariance(products, values).diagonal().iter().map(|own| off * own.max(0.0).sqrt()).collect()
 }
