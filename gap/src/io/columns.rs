@@ -15,8 +15,27 @@ pub(crate) fn split(header: &str) -> (&str, Option<&str>) {
     }
 }
 
+/// A column of a file that is one of ours.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Found {
+    /// Our name of it: the same for all that mean the same.
+    pub(crate) ours: String,
+    /// As the map says it.
+    pub(crate) unit: Option<String>,
+    /// Ours = factor · theirs + offset, in the unit.
+    pub(crate) factor: f64,
+    pub(crate) offset: f64,
+}
+
+impl Found {
+    fn new(ours: String, theirs: Option<&Theirs>) -> Found {
+        let [factor, offset] = theirs.map_or([1.0, 0.0], |theirs| [theirs.factor, theirs.offset]);
+        Found { ours, unit: theirs.and_then(|theirs| theirs.unit.clone()), factor, offset }
+    }
+}
+
 /// The header of a table, and what its names may mean.
-pub(crate) struct Header<'h, 'm> {
+pub(crate) struct Header<'h> {
     /// Its line; `None` of a file without lines.
     pub(crate) line: Option<u64>,
     /// As the file has them.
@@ -24,40 +43,40 @@ pub(crate) struct Header<'h, 'm> {
     /// A name of theirs without its unit.
     pub(crate) bare: &'h dyn Fn(&str) -> &str,
     /// What is said of the columns.
-    pub(crate) map: &'m Map,
+    pub(crate) map: &'h Map,
     /// What a name of ours in a map stands for: the same name for all that mean the same.
     pub(crate) known: &'h dyn Fn(&str) -> Option<String>,
     /// All names of ours, for a message.
     pub(crate) ours: &'h str,
 }
 
-impl<'m> Header<'_, 'm> {
+impl Header<'_> {
     /// A column of it.
     pub(crate) fn column(&self, index: usize) -> Column {
         Column { number: index + 1, header: self.names[index].clone() }
     }
 
-    /// Of each column its name among ours, by the map or as `meaning` has it, and the map's entry. What
-    /// the map gives to a column is not what another one means.
+    /// Of each column what it is among ours, by the map or as `meaning` has it. What the map gives to a
+    /// column is not what another one means.
     pub(crate) fn assign(
         &self,
         meaning: &dyn Fn(usize) -> Option<String>,
         mistakes: &mut Mistakes,
-    ) -> Vec<Option<(String, Option<&'m Theirs>)>> {
-        let mut assigned: Vec<Option<(String, Option<&Theirs>)>> = vec![None; self.names.len()];
+    ) -> Vec<Option<Found>> {
+        let mut assigned: Vec<Option<Found>> = vec![None; self.names.len()];
         let mut given: HashSet<String> = HashSet::new();
         for (ours, theirs) in &self.map.columns {
             match self.said(ours, theirs, &assigned) {
                 Ok((ours, index)) => {
-                    assigned[index] = Some((ours.clone(), Some(theirs)));
-                    given.insert(ours);
+                    given.insert(ours.clone());
+                    assigned[index] = Some(Found::new(ours, Some(theirs)));
                 }
                 Err(fault) => mistakes.add(fault.within(self.line, None)),
             }
         }
         for name in &self.map.ignore {
             let found = self.find(name, "one that is not kept").and_then(|index| {
-                let Some((ours, _)) = &assigned[index] else { return Ok(()) };
+                let Some(Found { ours, .. }) = &assigned[index] else { return Ok(()) };
                 let found = format!("the column `{name}` to be ignored and as {ours}");
                 Err(Fault::new(format!("{found} in {}", self.map.file), "one of them", ""))
             });
@@ -66,12 +85,11 @@ impl<'m> Header<'_, 'm> {
         let open = assigned.iter_mut().enumerate().filter(|(_, slot)| slot.is_none());
         for (index, slot) in open.filter(|(index, _)| !self.ignores(*index)) {
             let meant = meaning(index).filter(|ours| !given.contains(ours));
-            *slot = meant.map(|ours| (ours, None));
+            *slot = meant.map(|ours| Found::new(ours, None));
         }
         let mut first: HashMap<&str, usize> = HashMap::with_capacity(assigned.len());
-        for (index, (ours, _)) in
-            assigned.iter().enumerate().filter_map(|(k, slot)| Some((k, slot.as_ref()?)))
-        {
+        let found = assigned.iter().enumerate().filter_map(|(k, slot)| Some((k, slot.as_ref()?)));
+        for (index, Found { ours, .. }) in found {
             let before = *first.entry(ours).or_insert(index);
             if before < index {
                 let (number, one) = (before + 1, &self.names[before]);
@@ -96,7 +114,7 @@ impl<'m> Header<'_, 'm> {
         &self,
         ours: &str,
         theirs: &Theirs,
-        assigned: &[Option<(String, Option<&Theirs>)>],
+        assigned: &[Option<Found>],
     ) -> Result<(String, usize), Fault> {
         let map = &self.map.file;
         let Some(known) = (self.known)(ours) else {
@@ -105,7 +123,7 @@ impl<'m> Header<'_, 'm> {
         };
         let index = self.find(&theirs.column, &format!("the one that is {ours}"))?;
         match &assigned[index] {
-            Some((before, _)) => {
+            Some(Found { ours: before, .. }) => {
                 let found =
                     format!("the column `{}` as both {before} and {ours} in {map}", theirs.column);
                 Err(Fault::new(found, "it to be one of them", ""))
@@ -152,7 +170,7 @@ mod tests {
         let meaning = |k: usize| known(split(&names[k]).0);
         let found = header.assign(&meaning, &mut mistakes);
         mistakes.check("f").map_err(|error| error.to_string())?;
-        Ok(found.into_iter().map(|slot| slot.map(|(ours, _)| ours)).collect())
+        Ok(found.into_iter().map(|slot| slot.map(|found| found.ours)).collect())
     }
 
     #[test]

@@ -21,7 +21,7 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 
 use super::convention::Convention;
-use super::mistake::{Fault, ReadError};
+use super::mistake::{Fault, Mistake, ReadError};
 use super::source::from_toml;
 use super::table::Separator;
 
@@ -95,6 +95,11 @@ impl Map {
     /// What separates cells, if it is said.
     pub(crate) fn separator(&self) -> Option<Separator> {
         self.separator.map(Separator::of)
+    }
+
+    /// There is no header where the map says.
+    pub(crate) fn no_header(line: u64) -> Mistake {
+        Fault::new("no header", "a row of names there, as the map says", "").at(line, None)
     }
 
     /// Reads a map; `file` is what messages call it.

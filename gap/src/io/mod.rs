@@ -2,11 +2,13 @@
 //!
 //! 1. [`source`](bytes): the bytes of a file, and its text.
 //! 2. `table`: text into records, each with its line; what separates their cells.
-//! 3. `columns`: which column is which, by the [map](Map) that a user gives and by its name; in which
+//! 3. `cell`: what is a number, with a point or a comma before its decimals.
+//! 4. `columns`: which column is which, by the [map](Map) that a user gives and by its name; in which
 //!    [unit](Unit).
-//! 4. [`Convention`]: how an orientation is written.
-//! 5. [`Mistake`]: what is wrong, where it stands, and how to mend it.
+//! 5. [`Convention`]: how an orientation is written.
+//! 6. [`Mistake`]: what is wrong, where it stands, and how to mend it.
 
+pub(crate) mod cell;
 pub(crate) mod columns;
 mod convention;
 pub(crate) mod encoding;

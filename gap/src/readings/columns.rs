@@ -2,7 +2,8 @@
 
 use super::map::Map;
 use super::names::{self, Meaning};
-use super::sheet::{Table, is_none};
+use super::sheet::Table;
+use crate::io::cell::is_none;
 use crate::io::columns::Header;
 use crate::io::{Convention, Dimension, Mistakes, ReadError, Unit};
 use crate::measurement::{Role, SIM_PREFIX};
@@ -68,12 +69,10 @@ impl Columns {
         let mut columns = Columns::default();
         for (index, found) in assigned.into_iter().enumerate() {
             let mut column = Column::new(table, index);
-            let meaning = found.and_then(|(ours, theirs)| {
-                if let Some(theirs) = theirs {
-                    column.unit = theirs.unit.clone().or(column.unit.take());
-                    (column.factor, column.offset) = (theirs.factor, theirs.offset);
-                }
-                names::meaning(&ours)
+            let meaning = found.and_then(|found| {
+                column.unit = found.unit.or(column.unit.take());
+                (column.factor, column.offset) = (found.factor, found.offset);
+                names::meaning(&found.ours)
             });
             match meaning {
                 Some(Meaning::Orientation(of, k)) => columns.orientation.push((of, k, column)),

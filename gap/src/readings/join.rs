@@ -8,7 +8,8 @@ use super::clock::Clock;
 use super::columns::{Column, dimension};
 use super::counted;
 use super::names::{self, Meaning};
-use super::sheet::{Row, Seen, Table, is_none};
+use super::sheet::{Row, Seen, Table};
+use crate::io::cell::is_none;
 use crate::io::{Fault, Mistake, Mistakes, ReadError, Unit};
 
 /// Which rows belong together.

@@ -9,9 +9,10 @@ use nalgebra::Vector3;
 use super::clock::{Clock, DAY, days};
 use super::columns::{Column, Columns, dimension};
 use super::map::Map;
-use super::sheet::{Row, Table, is_none};
+use super::sheet::{Row, Table};
 use super::turn::Turn;
 use super::{Stopped, counted, names};
+use crate::io::cell::is_none;
 use crate::io::{Convention, Dimension, Fault, Mistake, Mistakes, ReadError, Unit, did_you_mean};
 use crate::measurement::{MOST_RADIANS, POSE_NAMES, WRENCH_NAMES, nearest_name};
 

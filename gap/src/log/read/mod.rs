@@ -38,7 +38,7 @@ mod text;
 use std::collections::BTreeMap;
 
 pub use clock::Clock;
-pub use column::{Signal, is_log};
+pub use column::Signal;
 pub use format::{Format, Opened};
 pub use holes::{GAP, Hole};
 pub use names::Names;
