@@ -2,7 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use stiffarm_gap::io::ReadError;
 use stiffarm_gap::log::{Log, Names, Opened};
 use stiffarm_kernels::Motion;
 
@@ -119,12 +118,11 @@ pub fn is_log(path: &Path, host: &Host) -> Result<bool, Failure> {
 /// # Errors
 /// [`Failure`]: what cannot be read.
 pub fn read(parts: Vec<Part>, motions: &[Motion], names: &Names) -> Result<Log, Failure> {
-    let plain = |error: ReadError| Failure::new(error.to_string());
     let mut log: Option<Log> = None;
     for Part { path, opened } in parts {
-        let next = Log::from_file(&path, opened, motions, names).map_err(plain)?;
+        let next = Log::from_file(&path, opened, motions, names)?;
         log = Some(match log {
-            Some(log) => log.and(next).map_err(plain)?,
+            Some(log) => log.and(next)?,
             None => next,
         });
     }
