@@ -29,6 +29,18 @@ pub fn joined(entries: &[String], and: &str) -> String {
     }
 }
 
+/// Values under the key that they share, in the order in which the keys first appear.
+pub fn gathered<K: PartialEq, V>(pairs: impl Iterator<Item = (K, V)>) -> Vec<(K, Vec<V>)> {
+    let mut all: Vec<(K, Vec<V>)> = Vec::new();
+    for (key, value) in pairs {
+        match all.iter_mut().find(|(known, _)| *known == key) {
+            Some((_, values)) => values.push(value),
+            None => all.push((key, vec![value])),
+        }
+    }
+    all
+}
+
 /// A part in per cent.
 pub fn percent(part: f64) -> String {
     format!("{} %", fixed(100.0 * part, 0))

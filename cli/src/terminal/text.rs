@@ -1,6 +1,7 @@
 //! Text for a terminal: numbers, aligned columns, bars.
 
 use console::{measure_text_width, style};
+pub use stiffarm_gap::io::listed;
 
 /// Of a quotation that is longer nobody reads all.
 const LONGEST_QUOTED: usize = 120;
@@ -122,15 +123,6 @@ pub fn left_bar(before: f64, after: f64, width: usize) -> String {
     let cells = |part: f64| (part.clamp(0.0, 1.0) * width as f64).round() as usize;
     let (before, after) = (cells(before), cells(after));
     format!("{}{}", "█".repeat(after), "░".repeat(before.saturating_sub(after)))
-}
-
-/// The first entries of a list, and how many more there are.
-pub fn listed(entries: &[String], most: usize) -> String {
-    let shown = entries.iter().take(most).cloned().collect::<Vec<_>>().join(", ");
-    match entries.len().checked_sub(most) {
-        None | Some(0) => shown,
-        Some(rest) => format!("{shown} and {rest} more"),
-    }
 }
 
 /// A sentence whose quotations, between `` ` ``, are cut where they are no longer read.

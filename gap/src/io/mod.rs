@@ -22,7 +22,7 @@ mod unit;
 pub use convention::{Convention, Euler};
 pub use map::Map;
 pub use mistake::{Column, Fault, MOST_MISTAKES, Mistake, ReadError};
-pub use nearest::{did_you_mean, nearest};
+pub use nearest::{did_you_mean, listed, nearest};
 pub use source::{MOST_BYTES, bytes};
 pub use unit::{Dimension, Unit, plain, quantity};
 

@@ -46,7 +46,7 @@ use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
 use crate::doubts::beyond;
-use crate::io::{Fault, ReadError};
+use crate::io::{Fault, ReadError, listed};
 
 /// Where along the drive the torque of a log is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -161,6 +161,9 @@ pub struct Lacking {
     pub found: String,
 }
 
+/// Rows and columns that a remark names before the rest is counted.
+const MOST_NAMED: usize = 8;
+
 /// A file that is none of its kind.
 #[cfg(any(feature = "mcap", feature = "parquet", feature = "rosbag2"))]
 fn unreadable(file: &str, kind: &str, error: impl std::fmt::Display) -> ReadError {
@@ -232,16 +235,13 @@ impl Log {
     pub fn remarks(&self) -> Vec<String> {
         let mut said = Vec::new();
         if let Some(first) = self.damaged.first() {
-            let lines: Vec<String> =
-                self.damaged.iter().take(8).map(|d| d.line.to_string()).collect();
-            let more = self.damaged.len().saturating_sub(lines.len());
-            let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+            let lines: Vec<u64> = self.damaged.iter().map(|damaged| damaged.line).collect();
             said.push(format!(
-                "{}: {} of {} rows are damaged and left out: {row} {}{more}; {row} {}: {}",
+                "{}: {} of {} rows are damaged and left out: {row} {}; {row} {}: {}",
                 first.file,
                 self.damaged.len(),
                 self.damaged.len() + self.samples,
-                lines.join(", "),
+                listed(&lines, MOST_NAMED),
                 first.line,
                 first.reason,
                 row = first.row,
@@ -249,12 +249,7 @@ impl Log {
         }
         said.extend(holes::remark(&self.lacking));
         if !self.unknown.is_empty() {
-            let named: Vec<&str> = self.unknown.iter().take(8).map(String::as_str).collect();
-            let more = match self.unknown.len() - named.len() {
-                0 => String::new(),
-                more => format!(" and {more} more"),
-            };
-            said.push(format!("nothing reads {}{more}", named.join(", ")));
+            said.push(format!("nothing reads {}", listed(&self.unknown, MOST_NAMED)));
         }
         said.extend(clock::remarks(&self.runs));
         said
