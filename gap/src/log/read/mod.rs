@@ -46,6 +46,7 @@ use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
 use crate::doubts::beyond;
+use crate::gap::middle;
 use crate::io::{Fault, ReadError, listed};
 
 /// Where along the drive the torque of a log is measured.
@@ -213,10 +214,8 @@ impl Log {
 
     /// The usual step of all runs, s.
     pub fn period(&self) -> f64 {
-        let mut periods: Vec<f64> = self.runs.iter().map(|run| run.clock.period).collect();
-        periods.retain(|period| *period > 0.0);
-        periods.sort_by(f64::total_cmp);
-        periods.get(periods.len() / 2).copied().unwrap_or(1.0)
+        let periods = self.runs.iter().map(|run| run.clock.period);
+        middle(periods.filter(|period| *period > 0.0)).unwrap_or(1.0)
     }
 
     /// Whether it has this signal.
