@@ -7,9 +7,9 @@
 //! Logs of a UR10 and a Panda (43 parameters) without a cause, whose files have wrong masses: how many intervals of 95 %
 //! hold the truth. `LINKS_SEEDS=n` tries so many of each.
 
-use stiffarm_gap::log::{Log, LogOptions, Names, diagnose};
+use stiffarm_gap::log::{Log, LogOptions, diagnose};
 use stiffarm_gap::motion::{Fourier, Limits};
-use stiffarm_gap::plant::motion::{Logged, MovingPlant, Recording, Side, Stage, csv};
+use stiffarm_gap::plant::motion::{Logged, MovingPlant, Recording, Side, Stage};
 use stiffarm_gap::rng::{Rng, Stream};
 
 use crate::logs::arm;
@@ -24,16 +24,14 @@ fn counted(robot: &str, seed: u64) -> [usize; 3] {
     let stages: Vec<Stage<'_>> =
         courses.iter().map(|course| Stage { course, payload: None }).collect();
     let plant = MovingPlant::new(&real, &[], Logged::Torque(Side::Motor), Recording::default());
-    let runs = plant.record(&stages, seed).expect("an arm that moves");
-    let text = csv(&real, Logged::Torque(Side::Motor), &runs, &[]);
-    let motions: Vec<_> = real.joints.iter().map(|joint| joint.motion).collect();
-    let log = Log::from_bytes("links", text.as_bytes(), &motions, &Names::default());
+    let text = plant.text(&stages, seed).expect("an arm that moves");
+    let log = Log::of_arm(&real, "links", &text).expect("a right log");
     let mut file = real.clone();
     file.joints.iter_mut().for_each(|joint| {
         joint.mass *= 0.5;
         joint.inertia *= 0.5;
     });
-    let found = diagnose(&file, &log.expect("a right log"), &LogOptions::default());
+    let found = diagnose(&file, &log, &LogOptions::default());
     let found = found.expect("a log that is diagnosed");
     let rigid = found.rigid.expect("torques of the motors");
     let (sums, moments) = (real.base_parameters(), real.moments());

@@ -185,6 +185,15 @@ impl Log {
         text::read(file, bytes, motions, names)
     }
 
+    /// Reads the text of a log of this arm under our own names.
+    ///
+    /// # Errors
+    /// As [`Log::from_bytes`].
+    pub fn of_arm(arm: &Arm, file: &str, text: &str) -> Result<Log, ReadError> {
+        let motions: Vec<Motion> = arm.joints.iter().map(|joint| joint.motion).collect();
+        Log::from_bytes(file, text.as_bytes(), &motions, &Names::default())
+    }
+
     /// With the runs of another file.
     ///
     /// # Errors
