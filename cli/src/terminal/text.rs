@@ -173,14 +173,6 @@ pub fn bad(text: impl AsRef<str>) -> String {
     style(text.as_ref()).red().bold().to_string()
 }
 
-/// A cell of a CSV file, whatever it holds.
-pub fn quoted(text: &str) -> String {
-    match text.contains([',', '"', '\n', '\r', '#']) {
-        true => format!("\"{}\"", text.replace('"', "\"\"")),
-        false => text.to_owned(),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -6,7 +6,8 @@
 //! 4. `columns`: which column is which, by the [map](Map) that a user gives and by its name; in which
 //!    [unit](Unit).
 //! 5. [`Convention`]: how an orientation is written.
-//! 6. [`Mistake`]: what is wrong, where it stands, and how to mend it.
+//! 6. [`Columns`]: a table as text.
+//! 7. [`Mistake`]: what is wrong, where it stands, and how to mend it.
 
 pub(crate) mod cell;
 pub(crate) mod columns;
@@ -18,13 +19,15 @@ mod nearest;
 mod source;
 pub(crate) mod table;
 mod unit;
+mod write;
 
 pub use convention::{Convention, Euler};
 pub use map::Map;
 pub use mistake::{Column, Fault, MOST_MISTAKES, Mistake, ReadError};
 pub use nearest::{did_you_mean, listed, nearest};
 pub use source::{MOST_BYTES, bytes};
-pub use unit::{Dimension, Unit, plain, quantity};
+pub use unit::{Dimension, INCH, POUND, Unit, plain, quantity};
+pub use write::{Columns, digits, number, quoted};
 
 pub(crate) use mistake::Mistakes;
 pub(crate) use source::from_toml;
