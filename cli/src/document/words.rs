@@ -16,9 +16,17 @@ pub fn named(effect: &str, place: &str) -> String {
 
 /// With a capital letter at its beginning.
 pub fn capital(text: &str) -> String {
+    begun(text, |letter| letter.to_uppercase().to_string())
+}
+
+/// With a small letter at its beginning.
+pub fn lower(text: &str) -> String {
+    begun(text, |letter| letter.to_lowercase().to_string())
+}
+
+fn begun(text: &str, as_first: fn(char) -> String) -> String {
     let mut letters = text.chars();
-    let first = letters.next().map(|c| c.to_uppercase().to_string());
-    first.unwrap_or_default() + letters.as_str()
+    letters.next().map(as_first).unwrap_or_default() + letters.as_str()
 }
 
 /// `a, b and c`, with `and` as what stands before the last.
