@@ -96,13 +96,13 @@ impl Decimals {
 
     /// The same, and notes what begins the decimals. A point in a file of commas stands between thousands.
     pub(crate) fn look(&mut self, cell: &str) -> Option<f64> {
-        // Most cells of a file have points, and are numbers.
-        if !self.comma
-            && let Ok(number) = cell.parse()
-        {
-            return Some(number).filter(|x: &f64| x.is_finite());
+        if !self.comma {
+            let number = self.found(cell)?;
+            self.comma = cell.contains(',');
+            if !self.comma {
+                return Some(number);
+            }
         }
-        self.comma |= self.may_comma && cell.contains(',') && with_comma(cell).is_some();
         self.number(cell).ok().flatten()
     }
 

@@ -15,24 +15,8 @@ pub(crate) fn split(header: &str) -> (&str, Option<&str>) {
     }
 }
 
-/// A column of a file that is one of ours.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Found {
-    /// Our name of it: the same for all that mean the same.
-    pub(crate) ours: String,
-    /// As the map says it.
-    pub(crate) unit: Option<String>,
-    /// Ours = factor · theirs + offset, in the unit.
-    pub(crate) factor: f64,
-    pub(crate) offset: f64,
-}
-
-impl Found {
-    fn new(ours: String, theirs: Option<&Theirs>) -> Found {
-        let [factor, offset] = theirs.map_or([1.0, 0.0], |theirs| [theirs.factor, theirs.offset]);
-        Found { ours, unit: theirs.and_then(|theirs| theirs.unit.clone()), factor, offset }
-    }
-}
+/// A column that is one of ours: our name of it, the same for all that mean the same, and what the map says of it.
+pub(crate) type Found = (String, Theirs);
 
 /// The header of a table, and what its names may mean.
 pub(crate) struct Header<'h> {
@@ -69,14 +53,14 @@ impl Header<'_> {
             match self.said(ours, theirs, &assigned) {
                 Ok((ours, index)) => {
                     given.insert(ours.clone());
-                    assigned[index] = Some(Found::new(ours, Some(theirs)));
+                    assigned[index] = Some((ours, theirs.clone()));
                 }
                 Err(fault) => mistakes.add(fault.within(self.line, None)),
             }
         }
         for name in &self.map.ignore {
             let found = self.find(name, "one that is not kept").and_then(|index| {
-                let Some(Found { ours, .. }) = &assigned[index] else { return Ok(()) };
+                let Some((ours, _)) = &assigned[index] else { return Ok(()) };
                 let found = format!("the column `{name}` to be ignored and as {ours}");
                 Err(Fault::new(format!("{found} in {}", self.map.file), "one of them", ""))
             });
@@ -85,11 +69,11 @@ impl Header<'_> {
         let open = assigned.iter_mut().enumerate().filter(|(_, slot)| slot.is_none());
         for (index, slot) in open.filter(|(index, _)| !self.ignores(*index)) {
             let meant = meaning(index).filter(|ours| !given.contains(ours));
-            *slot = meant.map(|ours| Found::new(ours, None));
+            *slot = meant.map(|ours| (ours, Theirs::from(self.names[index].clone())));
         }
         let mut first: HashMap<&str, usize> = HashMap::with_capacity(assigned.len());
         let found = assigned.iter().enumerate().filter_map(|(k, slot)| Some((k, slot.as_ref()?)));
-        for (index, Found { ours, .. }) in found {
+        for (index, (ours, _)) in found {
             let before = *first.entry(ours).or_insert(index);
             if before < index {
                 let (number, one) = (before + 1, &self.names[before]);
@@ -123,7 +107,7 @@ impl Header<'_> {
         };
         let index = self.find(&theirs.column, &format!("the one that is {ours}"))?;
         match &assigned[index] {
-            Some(Found { ours: before, .. }) => {
+            Some((before, _)) => {
                 let found =
                     format!("the column `{}` as both {before} and {ours} in {map}", theirs.column);
                 Err(Fault::new(found, "it to be one of them", ""))
@@ -170,7 +154,7 @@ mod tests {
         let meaning = |k: usize| known(split(&names[k]).0);
         let found = header.assign(&meaning, &mut mistakes);
         mistakes.check("f").map_err(|error| error.to_string())?;
-        Ok(found.into_iter().map(|slot| slot.map(|found| found.ours)).collect())
+        Ok(found.into_iter().map(|slot| slot.map(|(ours, _)| ours)).collect())
     }
 
     #[test]

@@ -77,10 +77,17 @@ enum Written {
     },
 }
 
+impl From<String> for Theirs {
+    /// A column as it stands.
+    fn from(column: String) -> Theirs {
+        Theirs { column, unit: None, factor: 1.0, offset: 0.0 }
+    }
+}
+
 impl From<Written> for Theirs {
     fn from(written: Written) -> Theirs {
         match written {
-            Written::Name(column) => Theirs { column, unit: None, factor: 1.0, offset: 0.0 },
+            Written::Name(column) => column.into(),
             Written::More { column, unit, factor, offset } => Theirs {
                 column,
                 unit,

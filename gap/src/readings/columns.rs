@@ -69,10 +69,10 @@ impl Columns {
         let mut columns = Columns::default();
         for (index, found) in assigned.into_iter().enumerate() {
             let mut column = Column::new(table, index);
-            let meaning = found.and_then(|found| {
-                column.unit = found.unit.or(column.unit.take());
-                (column.factor, column.offset) = (found.factor, found.offset);
-                names::meaning(&found.ours)
+            let meaning = found.and_then(|(ours, theirs)| {
+                column.unit = theirs.unit.or(column.unit.take());
+                (column.factor, column.offset) = (theirs.factor, theirs.offset);
+                names::meaning(&ours)
             });
             match meaning {
                 Some(Meaning::Orientation(of, k)) => columns.orientation.push((of, k, column)),

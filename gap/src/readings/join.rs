@@ -157,9 +157,6 @@ pub(super) fn join<'t>(
         .map(|((mine, theirs), shift)| (timing(&ours, mine, 0.0), timing(other, theirs, shift)));
     let (mut count, mut times, mut cells) = (0, Vec::new(), HashMap::new());
     let read = other.each(|row| {
-        if row.cells.iter().all(|cell| cell.is_empty()) {
-            return;
-        }
         match (keys, &timed) {
             (Some((_, theirs)), Some((_, time))) => match seconds(other, row, time) {
                 Ok(time) if times.last().is_none_or(|last| *last <= time) => times.push(time),
@@ -204,9 +201,6 @@ pub(super) fn join<'t>(
     said.extend(met);
     let (mut kept, mut number) = (Kept::default(), 0);
     let read = other.each(|row| {
-        if row.cells.iter().all(|cell| cell.is_empty()) {
-            return;
-        }
         if wanted.get(number) == Some(&true) {
             kept.push(number, taken.iter().map(|k| other.text(row, *k)));
         }
@@ -249,9 +243,6 @@ impl Join<'_> {
         let mut wanted = vec![false; self.count];
         let mut ends = [f64::INFINITY, f64::NEG_INFINITY];
         let read = ours.each(|row| {
-            if row.cells.iter().all(|cell| cell.is_empty()) {
-                return;
-            }
             if let Key::Time(mine, _) = &self.key
                 && let Ok(time) = seconds(ours, row, mine)
             {

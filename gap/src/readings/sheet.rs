@@ -67,13 +67,9 @@ impl<'t> Table<'t> {
         let mut table = table.map_err(|mistake| mistake.of(file))?;
         let (mut seen, mut mistakes) =
             (vec![Seen::default(); table.names.len()], Mistakes::default());
-        let (mut comma, mut empty) = (false, 0);
+        let mut comma = false;
         let wide = table.names.iter().rposition(|name| !name.is_empty()).map_or(0, |last| last + 1);
         let looked = table.each(|row| {
-            if row.cells.iter().all(|cell| cell.is_empty()) {
-                empty += 1;
-                return;
-            }
             let surplus = row.cells.get(table.names.len()..).unwrap_or_default();
             if row.cells.len() < wide || surplus.iter().any(|cell| !cell.is_empty()) {
                 mistakes.add(Fault::ragged(row.cells.len(), table.names.len()).at(row.line, None));
@@ -87,7 +83,7 @@ impl<'t> Table<'t> {
                 seen.least = number.map_or(seen.least, |number| seen.least.min(number));
             }
         });
-        mistakes.extend(looked.err());
+        let empty = looked.map_err(|mistake| mistakes.add(mistake)).unwrap_or(0);
         mistakes.check(file)?;
         table.seen = seen;
         table.decimals.comma = map.decimal.map_or(comma, |decimal| decimal == ',');
@@ -179,25 +175,26 @@ impl<'t> Table<'t> {
         Table { names, seen, units, said, join: Some(join), ..self }
     }
 
-    /// Goes through the rows below the header.
+    /// Goes through the rows below the header that hold anything, and counts the others.
     ///
     /// # Errors
     /// What nothing can be read after.
-    pub(super) fn each(&self, mut take: impl FnMut(&Row<'_>)) -> Result<(), Mistake> {
+    pub(super) fn each(&self, mut take: impl FnMut(&Row<'_>)) -> Result<usize, Mistake> {
         let mut records = self.text.records(Some(self.separator))?;
-        let mut rows = 0;
+        let (mut rows, mut empty) = (0, 0);
         while let Some(record) = records.read()? {
             if record.line <= self.above {
                 continue;
             }
             let (line, mut cells) = (record.line, record.texts()?);
+            if cells.iter().all(|cell| cell.is_empty()) {
+                empty += 1;
+                continue;
+            }
             let Some(join) = &self.join else {
                 take(&Row { line, cells: &cells });
                 continue;
             };
-            if cells.iter().all(|cell| cell.is_empty()) {
-                continue;
-            }
             let met = join.meets(self, rows, &Row { line, cells: &cells })?;
             rows += 1;
             let Some(beside) = met.map(|met| join.cells(&met)) else { continue };
@@ -205,7 +202,7 @@ impl<'t> Table<'t> {
             cells.extend(beside.iter().map(AsRef::<str>::as_ref));
             take(&Row { line, cells: &cells });
         }
-        Ok(())
+        Ok(empty)
     }
 
     /// A cell as it stands, its decimals behind a point if it is a number.

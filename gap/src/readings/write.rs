@@ -53,9 +53,6 @@ pub(super) fn write(
     let (mut mistakes, mut rows) = (Mistakes::default(), 0);
     let mut wrote = writer.write_record(outputs.iter().map(|o| &o.header));
     let read = table.each(|row| {
-        if row.cells.iter().all(|cell| cell.is_empty()) {
-            return;
-        }
         for point in 0..columns.points.len().max(1) {
             // A beam that was cut leaves the cells of its point empty.
             let axes = columns.points.get(point).map(|(_, axes)| axes);

@@ -202,11 +202,11 @@ impl Head {
     /// # Errors
     /// A joint that the arm has not, or a unit of another quantity.
     fn new(
-        found: &Found,
+        (ours, theirs): &Found,
         written: Option<&str>,
         motions: &[Motion],
     ) -> Option<Result<Head, Fault>> {
-        let role = Role::of(&found.ours)?;
+        let role = Role::of(ours)?;
         if let Role::Joint(_, joint) = role
             && joint >= motions.len()
         {
@@ -214,12 +214,12 @@ impl Head {
             let expected = format!("joints 1 to {last}");
             return Some(Err(Fault::new(found, expected, "the arm has no other")));
         }
-        let unit = role.dimension(motions).zip(found.unit.as_deref().or(written));
+        let unit = role.dimension(motions).zip(theirs.unit.as_deref().or(written));
         let unit = unit.map(|(dimension, unit)| dimension.unit(unit, Unit::named)).transpose();
         let law = |unit: Option<Unit>| {
             let [factor, offset] = unit.map_or([1.0, 0.0], |unit| [unit.factor, unit.offset]);
-            let offset = factor * found.offset + offset;
-            Head { role, factor: factor * found.factor, offset, slot: 0 }
+            let offset = factor * theirs.offset + offset;
+            Head { role, factor: factor * theirs.factor, offset, slot: 0 }
         };
         Some(unit.map(law))
     }
