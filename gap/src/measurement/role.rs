@@ -125,11 +125,14 @@ pub(crate) enum Role {
     Extra,
 }
 
-/// Columns of the joints: a letter before the number.
-const NUMBERED: [(char, fn(usize) -> Role); 2] = [('q', Role::Reading), ('s', Role::Direction)];
+/// The role of the columns of one kind by their number, from 0.
+type Numbered = fn(usize) -> Role;
 
-/// Columns of one kind by their names, of which each has a number from 0.
-type Group = (&'static [&'static str], fn(usize) -> Role);
+/// Columns of the joints: a letter before the number.
+const OF_JOINTS: [(char, Numbered); 2] = [('q', Role::Reading), ('s', Role::Direction)];
+
+/// Columns of one kind by their names.
+type Group = (&'static [&'static str], Numbered);
 
 /// All columns but those of the joints and those with a prefix.
 const GROUPS: [Group; 24] = [
@@ -200,7 +203,7 @@ impl Role {
 
     /// The role of the column called `name` (without its unit).
     pub(crate) fn of(name: &str, layout: &Layout) -> Result<Role, Fault> {
-        for (letter, role) in NUMBERED {
+        for (letter, role) in OF_JOINTS {
             if let Some(joint) = numbered(name, letter, layout)? {
                 return Ok(role(joint));
             }
@@ -263,7 +266,7 @@ fn numbered(name: &str, letter: char, layout: &Layout) -> Result<Option<usize>, 
 
 /// The known column that an unknown one may have been meant to be.
 pub(crate) fn nearest_name(found: &str, layout: &Layout) -> Option<String> {
-    let joints = (1..=layout.motions.len()).flat_map(|j| NUMBERED.map(|(l, _)| format!("{l}{j}")));
+    let joints = (1..=layout.motions.len()).flat_map(|j| OF_JOINTS.map(|(l, _)| format!("{l}{j}")));
     let plain = GROUPS.iter().flat_map(|(names, _)| *names).map(|name| (*name).to_owned());
     let measured = || POSE_NAMES.into_iter().chain(DISPLACEMENT_NAMES);
     let prefixed = |prefix| measured().map(move |n| format!("{prefix}{n}"));

@@ -182,7 +182,7 @@ pub fn recorded(
     beside: Signal,
     mut sample: impl FnMut(usize, f64) -> [[f64; 2]; 2],
 ) -> Log {
-    let [mut q, mut other] = [(); 2].map(|()| vec![Vec::with_capacity(count); 2]);
+    let [mut q, mut other] = [(); 2].map(|()| vec![Vec::new(); 2]);
     for k in 0..count {
         for (j, [value, beside]) in sample(k, step * k as f64).into_iter().enumerate() {
             q[j].push(value);
