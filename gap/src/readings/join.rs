@@ -123,20 +123,14 @@ pub(super) fn join<'t>(
     let meaning = |name: &String| names::meaning(names::split(name).0);
     let known: Vec<Option<Meaning>> = ours.names.iter().map(meaning).collect();
     let (mut mistakes, mut said) = (Mistakes::default(), Vec::new());
-    let keys =
-        match by {
-            By::Row => None,
-            By::Time(_) => Some([&ours, other].map(|table| {
-                let is = |name: &String| meaning(name) == Some(Meaning::Ours("time".to_owned()));
-                at(table, "time", is)
-            })),
-            By::Column(name) => Some([&ours, other].map(|table| {
-                at(table, name, |found| found == name || names::split(found).0 == name)
-            })),
-        };
-    let keys = match keys {
-        Some([mine, theirs]) => Some((mine?, theirs?)),
-        None => None,
+    let is_time = |name: &String| meaning(name) == Some(Meaning::Ours("time".to_owned()));
+    let keys = match by {
+        By::Row => None,
+        By::Time(_) => Some((at(&ours, "time", is_time)?, at(other, "time", is_time)?)),
+        By::Column(name) => {
+            let is = |found: &String| found == name || names::split(found).0 == name;
+            Some((at(&ours, name, is)?, at(other, name, is)?))
+        }
     };
     let mut taken: Vec<usize> = Vec::new();
     for (k, name) in other.names.iter().enumerate() {
