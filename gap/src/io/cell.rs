@@ -97,11 +97,12 @@ impl Decimals {
     /// The same, and notes what begins the decimals. A point in a file of commas stands between thousands.
     pub(crate) fn look(&mut self, cell: &str) -> Option<f64> {
         if !self.comma {
-            let number = self.found(cell)?;
-            self.comma = cell.contains(',');
-            if !self.comma {
-                return Some(number);
+            // Most cells of a file have points, and are numbers.
+            if let Ok(number) = cell.parse() {
+                return Some(number).filter(|x: &f64| x.is_finite());
             }
+            self.found(cell)?;
+            self.comma = true;
         }
         self.number(cell).ok().flatten()
     }
