@@ -13,26 +13,24 @@ pub(crate) fn is_none(text: &str) -> bool {
 
 /// A finite number with a point before its decimals; `expected` is what the message asks for.
 pub(crate) fn number(cell: &str, expected: impl Fn() -> String) -> Result<f64, Fault> {
-    if cell.is_empty() {
-        return Err(empty(&expected()));
-    }
+    let number = cell.parse().ok().filter(|x: &f64| x.is_finite());
+    number.ok_or_else(|| no_number(cell, &expected()))
+}
+
+fn no_number(cell: &str, expected: &str) -> Fault {
     let (found, again) = (format!("`{cell}`"), "remove the row or measure again");
     match cell.parse::<f64>() {
-        Ok(value) if value.is_finite() => Ok(value),
-        Ok(value) if value.is_nan() => {
-            Err(Fault::hole(found + ", not a number", expected(), again))
-        }
-        Ok(_) if cell.contains(['n', 'N']) => {
-            Err(Fault::new(found + ", infinity", expected(), again))
-        }
-        Ok(_) => Err(too_large(cell, &expected())),
+        Err(_) if cell.is_empty() => empty(expected),
+        Ok(value) if value.is_nan() => Fault::hole(found + ", not a number", expected, again),
+        Ok(_) if cell.contains(['n', 'N']) => Fault::new(found + ", infinity", expected, again),
+        Ok(_) => too_large(cell, expected),
         Err(_) if with_comma(cell).is_some() => {
-            Err(Fault::new(found + ", a decimal comma", "", "write 1.5, not 1,5"))
+            Fault::new(found + ", a decimal comma", "", "write 1.5, not 1,5")
         }
         Err(_) => {
             let has_digits = cell.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c));
             let unit = if has_digits { "; a unit belongs in the header, `name[unit]`" } else { "" };
-            Err(Fault::new(found, expected(), format!("write a plain number{unit}")))
+            Fault::new(found, expected, format!("write a plain number{unit}"))
         }
     }
 }
@@ -95,12 +93,18 @@ impl Decimals {
     }
 
     /// The same, and notes what begins the decimals. A point in a file of commas stands between thousands.
+    #[inline]
     pub(crate) fn look(&mut self, cell: &str) -> Option<f64> {
+        // Most cells of a file have points, and are numbers.
+        match cell.parse::<f64>() {
+            Ok(number) if !self.comma => Some(number).filter(|number| number.is_finite()),
+            _ => self.look_for_comma(cell),
+        }
+    }
+
+    #[cold]
+    fn look_for_comma(&mut self, cell: &str) -> Option<f64> {
         if !self.comma {
-            // Most cells of a file have points, and are numbers.
-            if let Ok(number) = cell.parse() {
-                return Some(number).filter(|x: &f64| x.is_finite());
-            }
             self.found(cell)?;
             self.comma = true;
         }
@@ -126,6 +130,10 @@ impl Decimals {
     /// # Errors
     /// What is no number, or may be two: `1.100` where a comma begins the decimals.
     pub(crate) fn number(self, cell: &str) -> Result<Option<f64>, Fault> {
+        let as_it_stands = cell.parse().ok().filter(|x: &f64| x.is_finite() && !self.comma);
+        if as_it_stands.is_some() {
+            return Ok(as_it_stands);
+        }
         let text = self.plain(cell);
         if is_none(&text) {
             return Ok(None);
