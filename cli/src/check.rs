@@ -100,7 +100,7 @@ fn check(source: Source, args: &Args, host: &Host) -> Result<Checked, Failure> {
     let outputs = robot.generated();
     let model = Model::new(&robot, &outputs);
     let whole = Whole { arm: &table, known: &known };
-    let arm = stiffarm_gap::robot::arm(&robot).map_err(|error| Failure::new(error.to_string()))?;
+    let arm = stiffarm_gap::robot::arm(&robot)?;
     let at = |q: &[f64], w: &[f64; 6]| drawn(&q[..arm.dof()], (arm.base.rotation, w));
     let generated =
         |output, q: &[f64], w: &[f64; 6]| model.evaluate(output, q, w, &given(&at(q, w)));

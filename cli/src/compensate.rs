@@ -6,8 +6,8 @@ use nalgebra::{UnitQuaternion, Vector3, Vector6};
 use stiffarm_gap::Measurements;
 use stiffarm_gap::compensate::reach::{Ended, Reached, Search, Target as Goal, reach_by_branches};
 use stiffarm_gap::doubts;
-use stiffarm_gap::io::ReadError;
-use stiffarm_gap::measurement::{Dimension, Kind, Layout, Row};
+use stiffarm_gap::io::{Columns, ReadError, quoted};
+use stiffarm_gap::measurement::{Dimension, Kind, Layout, POSE_NAMES, Row};
 use stiffarm_gap::simulate::moments;
 use stiffarm_gap::whole::{Situation, Whole};
 use stiffarm_kernels::generic::Joint;
@@ -21,7 +21,7 @@ use crate::input::{data, quantity};
 use crate::terminal::failure::Failure;
 use crate::terminal::output::Target;
 use crate::terminal::progress::Progress;
-use crate::terminal::text::{bold, dim, quoted, short};
+use crate::terminal::text::{bold, dim, short};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -193,51 +193,41 @@ fn sizes(error: &Vector6<f64>) -> [f64; 2] {
 /// A row for each target.
 fn file(source: &Source, targets: &Measurements, found: &[Reached]) -> String {
     let turned = matches!(targets.kind, Kind::Pose { orientation: true });
-    let named = targets.rows.iter().any(|row| row.pose.is_some());
-    let revolute: Vec<bool> = source.readings().iter().map(|d| *d == Dimension::Angle).collect();
-    let mut heads: Vec<String> = if named { vec!["pose".to_owned()] } else { Vec::new() };
-    heads.extend(source.heads());
-    heads.extend(["x[mm]", "y[mm]", "z[mm]"].map(str::to_owned));
-    if turned {
-        heads.extend(["rx[deg]", "ry[deg]", "rz[deg]"].map(str::to_owned));
+    let mut columns: Columns<'_, (&Row, &Reached)> = Columns::default();
+    if targets.rows.iter().any(|row| row.pose.is_some()) {
+        columns.add("pose", |(row, _)| quoted(row.pose.as_deref()));
     }
-    for (name, what) in [("error", "mm"), ("before", "mm")] {
-        heads.push(format!("{name}[{what}]"));
-        if turned {
-            heads.push(format!("{name}_rotation[mrad]"));
-        }
-    }
-    heads.push("status".to_owned());
-    let mut text = heads.join(",") + "\n";
-    for (row, end) in targets.rows.iter().zip(found) {
-        let mut cells: Vec<String> = Vec::new();
-        if named {
-            cells.push(quoted(row.pose.as_deref().unwrap_or_default()));
-        }
-        let stable = end.ended != Ended::Unstable;
-        cells.extend(end.q.iter().zip(&revolute).map(|(q, turns)| match (stable, turns) {
+    let is_stable = |end: &Reached| end.ended != Ended::Unstable;
+    for (k, (head, reading)) in source.heads().zip(source.readings()).enumerate() {
+        columns.add(head, move |(_, end)| match (is_stable(end), reading) {
             (false, _) => String::new(),
             // To a nanoradian and a nanometre.
-            (true, true) => format!("{:.8}", rounded(q.to_degrees(), 1e8)),
-            (true, false) => format!("{:.6}", rounded(1e3 * q, 1e6)),
-        }));
-        cells.extend((0..3).map(|k| format!("{:.6}", 1e3 * row.measured[k])));
-        if turned {
-            cells.extend((3..6).map(|k| format!("{:.8}", row.measured[k].to_degrees())));
-        }
-        for error in [Some(&end.error).filter(|_| stable), end.uncompensated.as_ref()] {
-            let [p, r] = error.map_or([None; 2], |e| sizes(e).map(Some));
-            let shown = |x: Option<f64>| x.map_or_else(String::new, |x| format!("{:.6}", 1e3 * x));
-            cells.push(shown(p));
-            if turned {
-                cells.push(shown(r));
-            }
-        }
-        cells.push(status(&end.ended));
-        text.push_str(&cells.join(","));
-        text.push('\n');
+            (true, Dimension::Angle) => format!("{:.8}", rounded(end.q[k].to_degrees(), 1e8)),
+            (true, _) => format!("{:.6}", rounded(1e3 * end.q[k], 1e6)),
+        });
     }
-    text
+    for (k, name) in POSE_NAMES.iter().enumerate().take(if turned { 6 } else { 3 }) {
+        let unit = if k < 3 { "mm" } else { "deg" };
+        columns.add(format!("{name}[{unit}]"), move |(row, _)| match k < 3 {
+            true => format!("{:.6}", 1e3 * row.measured[k]),
+            false => format!("{:.8}", row.measured[k].to_degrees()),
+        });
+    }
+    type Error = fn(&Reached) -> Option<Vector6<f64>>;
+    let errors: [(&str, Error); 2] = [
+        ("error", |end| Some(end.error).filter(|_| end.ended != Ended::Unstable)),
+        ("before", |end| end.uncompensated),
+    ];
+    let parts = [("[mm]", 0), ("_rotation[mrad]", 1)];
+    for (name, error) in errors {
+        for (of, part) in parts.into_iter().take(1 + usize::from(turned)) {
+            columns.add(format!("{name}{of}"), move |(_, end)| {
+                error(end).map_or_else(String::new, |e| format!("{:.6}", 1e3 * sizes(&e)[part]))
+            });
+        }
+    }
+    columns.add("status", |(_, end)| status(&end.ended));
+    columns.text(Vec::<String>::new(), targets.rows.iter().zip(found))
 }
 
 /// To a part of one, without a minus before zero.

@@ -14,12 +14,12 @@ mod together;
 use std::path::PathBuf;
 
 use stiffarm_codegen::robot::Robot;
+use stiffarm_gap::Options;
 use stiffarm_gap::diagnose::{Prior, Stage};
 use stiffarm_gap::effects::Catalogue;
 use stiffarm_gap::log::effects::Catalogue as LogCatalogue;
 use stiffarm_gap::measurement::Dimension;
 use stiffarm_gap::spring::Spring;
-use stiffarm_gap::{DiagnoseError, Options};
 use stiffarm_kernels::generic::Arm;
 
 pub use accepted::Accepted;
@@ -256,10 +256,6 @@ fn family() -> Vec<Robot> {
     stiffarm_robots::ARMS.iter().filter_map(read).map(|(robot, _)| robot).collect()
 }
 
-fn plain(error: DiagnoseError) -> Failure {
-    Failure::new(error.to_string())
-}
-
 impl Args {
     /// Where the corrected arm goes.
     fn arms(&self) -> [&Option<Target>; 3] {
@@ -305,7 +301,7 @@ impl Settings {
                 Failure::with_help(format!("--tolerance: found `{text}`, expected two"), help)
             })?;
             let one = |text, dimension| quantity::with_unit("--tolerance", text, dimension);
-            Ok([one(length, Dimension::Length)?, one(angle, Dimension::Angle)?])
+            Ok::<_, Failure>([one(length, Dimension::Length)?, one(angle, Dimension::Angle)?])
         });
         let mut options = Options {
             version: env!("CARGO_PKG_VERSION").to_owned(),
@@ -325,8 +321,8 @@ impl Settings {
             catalogue,
             ..Options::default()
         };
-        options.fit_along(&self.nuisance).map_err(plain)?;
-        let read = |text: &String| Prior::parse(text, arm, &options.catalogue).map_err(plain);
+        options.fit_along(&self.nuisance)?;
+        let read = |text: &String| Prior::parse(text, arm, &options.catalogue);
         options.priors = self.usual.iter().map(read).collect::<Result<_, _>>()?;
         Ok(options)
     }

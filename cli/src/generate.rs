@@ -127,7 +127,7 @@ enum SinesFrom {
 
 /// The base parameters, each with the column of the torque regressor that is its own, from 1.
 fn base(robot: &Robot) -> Result<String, Failure> {
-    let arm = stiffarm_gap::robot::arm(robot).map_err(|error| Failure::new(error.to_string()))?;
+    let arm = stiffarm_gap::robot::arm(robot)?;
     let sums = arm.base_parameters();
     let count = sums.len();
     let head = format!(

@@ -102,7 +102,7 @@ pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     let progress = Progress::new(&source.given, PARTS, host);
     let answer = identify_measured(&arm, &data, &question, &|part| progress.reach(part, PARTS));
     drop(progress);
-    let answer = answer.map_err(|error| Failure::new(error.to_string()))?;
+    let answer = answer?;
     let result = written(&source, &data, &answer, &args.data.display().to_string());
     if data.sim_given.contains(&true) {
         host.note("the columns sim_… play no part: springs are compared with the robot file");

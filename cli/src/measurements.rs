@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use stiffarm_gap::io::{Map, ReadError};
+use stiffarm_gap::io::Map;
 use stiffarm_gap::readings::{By, Stopped, import, import_into};
 
 use super::Verdict;
@@ -65,12 +65,11 @@ pub struct Args {
 /// # Errors
 /// [`Failure`]: the table, the map, or an output that cannot be written.
 pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
-    let plain = |error: ReadError| Failure::new(error.to_string());
     let mut map = match &args.map {
         None => Map::default(),
         Some(path) => {
             let text = String::from_utf8_lossy(&host.read(path)?).into_owned();
-            Map::read(&path.display().to_string(), &text).map_err(plain)?
+            Map::read(&path.display().to_string(), &text)?
         }
     };
     map.sheet = args.sheet.clone().or(map.sheet);
@@ -79,7 +78,7 @@ pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     let other = other.as_ref().map(|other| (other, &args.by));
     let said = match &args.robot {
         Some(robot) => {
-            let imported = import(&raw, other, &map).map_err(plain)?;
+            let imported = import(&raw, other, &map)?;
             let source = RobotArgs::named(robot).load(host)?;
             let written = PathBuf::from("what was made of it");
             let layout = data::layout(&source)?;
@@ -89,14 +88,14 @@ pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
             imported.said
         }
         None => {
-            let mut done = Ok(Vec::new());
+            let mut done = Ok::<_, Failure>(Vec::new());
             host.stream(&args.csv, &mut |sink| match import_into(&raw, other, &map, sink) {
                 Ok(said) => {
                     done = Ok(said);
                     Ok(true)
                 }
                 Err(Stopped::Read(error)) => {
-                    done = Err(plain(error));
+                    done = Err(error.into());
                     Ok(false)
                 }
                 Err(Stopped::Write(error)) => Err(error),

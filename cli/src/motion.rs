@@ -115,8 +115,7 @@ impl MotionArgs {
     /// # Errors
     /// [`Failure`]: limits between which nothing moves.
     pub fn limits(&self, arm: &Arm) -> Result<Limits, Failure> {
-        Limits::of(arm, &self.max_rate, &self.max_acceleration)
-            .map_err(|error| Failure::new(error.to_string()))
+        Ok(Limits::of(arm, &self.max_rate, &self.max_acceleration)?)
     }
 
     /// Time and terms of a motion.
@@ -185,8 +184,7 @@ impl Courses {
         let names =
             Names::own(source.robot.joints.iter().map(|j| j.name.clone()).collect()).of_motion();
         let file = path.display().to_string();
-        let log = Log::from_bytes(&file, &told, &motions, &names);
-        let log = log.map_err(|error| Failure::new(error.to_string()))?;
+        let log = Log::from_bytes(&file, &told, &motions, &names)?;
         let signal = if log.has(Signal::QCmd) { Signal::QCmd } else { Signal::Q };
         let course = |run: &stiffarm_gap::log::Run| -> Result<Box<dyn Course>, Failure> {
             let sampled = Sampled::of(&run.t, &run.signals[&signal]).ok_or_else(|| {

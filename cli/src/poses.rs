@@ -128,7 +128,7 @@ pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     let progress = Progress::new(&source.given, PARTS, host);
     let found = design(whole, &plan, &|part| progress.reach(part, PARTS));
     drop(progress);
-    let found = found.map_err(|error| Failure::new(error.to_string()))?;
+    let found = found?;
     host.write(&args.csv, &file::file(&source, &plan, &found))?;
     if args.csv != Target::Stdout && !host.is_quiet() {
         host.print(&screen::screen(&source, &arm, &plan, &found))?;
@@ -208,9 +208,8 @@ impl Args {
             return Err(Failure::new("--nuisance is for --for separate"));
         }
         let each = self.nuisance.iter().map(|name| {
-            let known = Nuisance::parse(name).map_err(|error| Failure::new(error.to_string()))?;
-            let suspect = Suspect::parse(known.identifier(), arm, &Catalogue::default());
-            suspect.map_err(|error| Failure::new(error.to_string()))
+            let known = Nuisance::parse(name)?;
+            Ok(Suspect::parse(known.identifier(), arm, &Catalogue::default())?)
         });
         each.collect()
     }

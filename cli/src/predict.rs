@@ -4,13 +4,13 @@ use std::path::PathBuf;
 
 use nalgebra::Vector6;
 use serde::Serialize;
+use stiffarm_gap::Measurements;
 use stiffarm_gap::effects::Catalogue;
 use stiffarm_gap::gap::{Statistics, row_gap};
 use stiffarm_gap::plant::csv;
 use stiffarm_gap::predicted::predicted;
 use stiffarm_gap::simulate::Reading;
 use stiffarm_gap::whole::Whole;
-use stiffarm_gap::{DiagnoseError, Measurements};
 
 use super::Verdict;
 use crate::document::Unit;
@@ -83,10 +83,9 @@ pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     }
     data::doubted(&arm, &data, &[], host);
     let whole = Whole { arm: &arm, known: &source.known };
-    let refused = |error: DiagnoseError| Failure::new(error.to_string());
-    let found = predicted(whole, &data).map_err(refused)?;
+    let found = predicted(whole, &data)?;
     let trusted = source.trust.as_ref().map(|t| t.holds(whole, &Catalogue::default(), &data));
-    let trusted = trusted.transpose().map_err(refused)?;
+    let trusted = trusted.transpose()?;
     let covers = |number: &usize| {
         source.covers.as_ref().is_none_or(|covers| covers.holds(&data.rows[*number]))
             && trusted.as_ref().is_none_or(|trusted| trusted[*number])

@@ -168,7 +168,7 @@ pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     let seed = args.experiment.seed;
     let known: Vec<Known> =
         source.known.iter().filter(|known| known.is_there(&design)).cloned().collect();
-    let mut plant = Plant::beyond(&arm, &known, &truths).map_err(plain)?;
+    let mut plant = Plant::beyond(&arm, &known, &truths)?;
     if args.frames.is_some() {
         let others = (1..).map(|session| Frames::unknown(seed.wrapping_add(session)).base);
         let others = others.take(design.sessions().count().saturating_sub(1)).collect();
@@ -177,22 +177,16 @@ pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     if args.first_order_sim {
         plant = plant.with_first_order_sim();
     }
-    let measured = plant.measure(&design, noise, seed).and_then(|read| plant.seated(&read));
-    let measured = measured.map_err(plain)?;
+    let measured = plant.seated(&plant.measure(&design, noise, seed)?)?;
     if let Some(target) = &args.csv {
         host.write(target, &csv(&arm, &measured, &args.comments(&design, noise, &truths, &arm)))?;
     }
     Ok(Verdict::Good)
 }
 
-/// A sentence of the plant's.
-pub fn plain(error: impl std::error::Error) -> Failure {
-    Failure::new(error.to_string())
-}
-
 impl Args {
     fn truths(&self, arm: &Arm) -> Result<Vec<Truth>, Failure> {
-        self.effects.iter().map(|text| Truth::parse(text, arm).map_err(plain)).collect()
+        self.effects.iter().map(|text| Ok(Truth::parse(text, arm)?)).collect()
     }
 
     fn comments(

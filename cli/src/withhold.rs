@@ -12,7 +12,7 @@ use stiffarm_gap::whole::Whole;
 use stiffarm_kernels::generic::Arm;
 
 use super::Verdict;
-use super::simulate::{ExperimentArgs, plain};
+use super::simulate::ExperimentArgs;
 use crate::document::Embedded;
 use crate::host::Host;
 use crate::input::named;
@@ -158,7 +158,7 @@ impl Args {
         let seed = self.experiment.seed;
         let plan = Plan { arm, experiment, cases, multiple, seed, threads: THREADS };
         let progress = Progress::new(what, cases, host);
-        withhold(&plan, &|_, _| progress.add(1)).map_err(plain)
+        Ok(withhold(&plan, &|_, _| progress.add(1))?)
     }
 
     /// The sizes that are asked for, else the usual ones.

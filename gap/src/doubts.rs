@@ -13,7 +13,7 @@ use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::{Arm, Joint};
 
 use crate::diagnose::{Nuisance, rigid};
-use crate::gap::{rms, row_gap};
+use crate::gap::{middle, rms, row_gap};
 use crate::measurement::{Kind, MOST_RADIANS, Measurements, Row};
 use crate::simulate::{Reading, simulate};
 
@@ -139,9 +139,7 @@ fn lengths(data: &Measurements, reach: f64) -> Option<String> {
         _ => (MOST_REACHES * reach, "away"),
     };
     let size = |row: &Row| length(&row.measured, 0);
-    let mut sizes: Vec<f64> = data.rows.iter().map(size).collect();
-    sizes.sort_by(f64::total_cmp);
-    let middle = *sizes.get(sizes.len() / 2).filter(|m| **m > most_metres)?;
+    let middle = middle(data.rows.iter().map(size)).filter(|size| *size > most_metres)?;
     let name = data.kind.measured().into_iter().next()?;
     Some(format!(
         "{}: the tool is {} m {what} in most rows, and the arm reaches {} m: is it millimetres? \

@@ -83,8 +83,8 @@ impl Statistics {
     pub fn of<'g>(gaps: impl IntoIterator<Item = &'g Vector6<f64>>) -> Statistics {
         let norm = |g: &Vector6<f64>, from: usize| g.fixed_rows::<3>(from).norm();
         let norms = gaps.into_iter().map(|g| (norm(g, 0), norm(g, 3)));
-        let (mut positions, rotations): (Vec<f64>, Vec<f64>) = norms.unzip();
-        positions.sort_by(f64::total_cmp);
+        let (positions, rotations): (Vec<f64>, Vec<f64>) = norms.unzip();
+        let positions = ascending(positions);
         Statistics {
             position_rms: rms(&positions),
             position_p95: percentile(&positions, 0.95),
@@ -101,6 +101,19 @@ pub fn rms(values: &[f64]) -> f64 {
         return 0.0;
     }
     (values.iter().map(|v| v * v).sum::<f64>() / values.len() as f64).sqrt()
+}
+
+/// Numbers in ascending order.
+pub(crate) fn ascending(values: impl IntoIterator<Item = f64>) -> Vec<f64> {
+    let mut values: Vec<f64> = values.into_iter().collect();
+    values.sort_by(f64::total_cmp);
+    values
+}
+
+/// The number in the middle, of an even count the upper one of two: it is one of them, as a clock's step is.
+pub(crate) fn middle(values: impl IntoIterator<Item = f64>) -> Option<f64> {
+    let values = ascending(values);
+    values.get(values.len() / 2).copied()
 }
 
 /// The `p` quantile (0 to 1) of ascending values, linear between ranks; 0 of nothing.

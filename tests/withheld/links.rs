@@ -9,9 +9,9 @@
 //! intervals of 95 % hold the truth. `LINKS_SEEDS=n` tries so many of each.
 
 use stiffarm_gap::log::report::LogDiagnosis;
-use stiffarm_gap::log::{Log, LogOptions, Names, diagnose};
+use stiffarm_gap::log::{Log, LogOptions, diagnose};
 use stiffarm_gap::motion::{Fourier, Limits};
-use stiffarm_gap::plant::motion::{Logged, MovingPlant, Recording, Side, Stage, csv};
+use stiffarm_gap::plant::motion::{Logged, MovingPlant, Recording, Side, Stage};
 use stiffarm_gap::rng::{Rng, Stream};
 use stiffarm_kernels::generic::Arm;
 
@@ -26,11 +26,8 @@ fn diagnosed(real: &Arm, file: &Arm, seed: u64) -> LogDiagnosis {
     let stages: Vec<Stage<'_>> =
         courses.iter().map(|course| Stage { course, payload: None }).collect();
     let plant = MovingPlant::new(real, &[], Logged::Torque(Side::Motor), Recording::default());
-    let runs = plant.record(&stages, seed).expect("an arm that moves");
-    let text = csv(real, Logged::Torque(Side::Motor), &runs, &[]);
-    let motions: Vec<_> = real.joints.iter().map(|joint| joint.motion).collect();
-    let log = Log::from_bytes("links", text.as_bytes(), &motions, &Names::default());
-    let log = log.expect("a right log");
+    let text = plant.text(&stages, seed).expect("an arm that moves");
+    let log = Log::of_arm(real, "links", &text).expect("a right log");
     diagnose(file, &log, &LogOptions::default()).expect("a log that is diagnosed")
 }
 

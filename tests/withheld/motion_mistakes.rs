@@ -12,10 +12,10 @@ use core::f64::consts::{PI, TAU};
 
 use nalgebra::Vector3;
 use stiffarm_gap::log::report::{Finding, LogDiagnosis};
-use stiffarm_gap::log::{Log, LogOptions, Names, Run, Signal, diagnose};
+use stiffarm_gap::log::{Log, LogOptions, Run, Signal, diagnose};
 use stiffarm_gap::measurement::Body;
 use stiffarm_gap::motion::{Fourier, Limits};
-use stiffarm_gap::plant::motion::{Logged, MotionTruth, MovingPlant, Recording, Side, Stage, csv};
+use stiffarm_gap::plant::motion::{Logged, MotionTruth, MovingPlant, Recording, Side, Stage};
 use stiffarm_gap::rng::{Rng, Stream};
 use stiffarm_kernels::generic::Arm;
 
@@ -114,11 +114,8 @@ fn logged(kind: Kind, real: &Arm, seed: u64) -> Log {
         _ => Recording::default(),
     };
     let plant = MovingPlant::new(real, &late, Logged::Torque(Side::Motor), recording);
-    let runs = plant.record(&stages, seed).expect("an arm that moves");
-    let text = csv(real, Logged::Torque(Side::Motor), &runs, &[]);
-    let motions: Vec<_> = real.joints.iter().map(|joint| joint.motion).collect();
-    let mut log = Log::from_bytes("withheld", text.as_bytes(), &motions, &Names::default())
-        .expect("a right log");
+    let text = plant.text(&stages, seed).expect("an arm that moves");
+    let mut log = Log::of_arm(real, "withheld", &text).expect("a right log");
     if let Clipped(joint) = kind {
         clip(&mut log, joint);
     }

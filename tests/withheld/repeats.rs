@@ -8,9 +8,9 @@
 //! samples; one run of several repeats, with rest before and behind or not, or one motion in several runs.
 //! `REPEATS_SEEDS=n` tries so many of each.
 
-use stiffarm_gap::log::{Log, LogOptions, Names, diagnose};
+use stiffarm_gap::log::{Log, LogOptions, diagnose};
 use stiffarm_gap::motion::{Course, Fourier, Limits, State};
-use stiffarm_gap::plant::motion::{Logged, MovingPlant, Recording, Side, Stage, csv};
+use stiffarm_gap::plant::motion::{Logged, MovingPlant, Recording, Side, Stage};
 use stiffarm_gap::rng::{Rng, Stream};
 
 use crate::logs::arm;
@@ -64,11 +64,9 @@ fn found(
         (0..runs).map(|_| Stage { course: &course, payload: None }).collect();
     let recording = Recording { rate, jitter: jitter / rate, lost, ..Recording::default() };
     let plant = MovingPlant::new(&real, &[], Logged::Torque(Side::Motor), recording);
-    let runs = plant.record(&stages, seed).expect("an arm that moves");
-    let text = csv(&real, Logged::Torque(Side::Motor), &runs, &[]);
-    let motions: Vec<_> = real.joints.iter().map(|joint| joint.motion).collect();
-    let log = Log::from_bytes("repeated", text.as_bytes(), &motions, &Names::default());
-    let told = diagnose(&real, &log.expect("a right log"), &LogOptions::default());
+    let text = plant.text(&stages, seed).expect("an arm that moves");
+    let log = Log::of_arm(&real, "repeated", &text).expect("a right log");
+    let told = diagnose(&real, &log, &LogOptions::default());
     let told = told.expect("a log that is diagnosed");
     let named = told.findings.iter().map(|f| format!("{}@{}", f.effect, f.place)).collect();
     let said = told.remarks.iter().find(|remark| remark.contains("repeat"));

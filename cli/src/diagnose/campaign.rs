@@ -14,9 +14,7 @@ use stiffarm_gap::{Diagnosis, Measurements, Options, diagnose_with};
 use stiffarm_kernels::generic::Arm;
 
 use super::corrected::{Corrections, commented, made_from};
-use super::{
-    Accepted, Check, Compared, Found, Hashes, Motion, Provenance, Settings, in_words, plain,
-};
+use super::{Accepted, Check, Compared, Found, Hashes, Motion, Provenance, Settings, in_words};
 use crate::document::campaign::{Campaign as Reported, Fitted};
 use crate::document::{Document, Embedded};
 use crate::host::Host;
@@ -101,8 +99,7 @@ impl Campaign {
         }
         let stages = Stages::new(host);
         let mut diagnosed =
-            diagnose_with(&arm, &data, &options, &|stage| stages.say(in_words(stage)))
-                .map_err(plain)?;
+            diagnose_with(&arm, &data, &options, &|stage| stages.say(in_words(stage)))?;
         drop(stages);
         // All that follows is of the file without its mistakes.
         let (mut source, mut arm, mut data) = (source, arm, data);
@@ -110,8 +107,7 @@ impl Campaign {
             source.robot = mended.robot(&source.robot);
             (arm, data) = (mended.arm, mended.data);
         }
-        let check = other.map(|other| Check::of(&diagnosed, &data, &other)).transpose();
-        let check = check.map_err(plain)?;
+        let check = other.map(|other| Check::of(&diagnosed, &data, &other)).transpose()?;
         let found = &diagnosed.diagnosis;
         let made = Provenance::of(first, hash, &source.text, host)?;
         let compared = settings.compare.as_ref();
@@ -174,9 +170,10 @@ impl Campaign {
         let both = self.beside_log().map_or(alone, |both| &both.explanation);
         let positions = self.data.kind.components()[..3].contains(&true);
         let left = |model: &Explanation| {
-            let gaps = model.predict(&self.data).map_err(plain)?.after;
+            let gaps = model.predict(&self.data)?.after;
             let left = Statistics::of(&gaps);
-            Ok(if positions { left.position_rms } else { left.rotation_rms })
+            let rms = if positions { left.position_rms } else { left.rotation_rms };
+            Ok::<_, Failure>(rms)
         };
         Ok((if positions { "m" } else { "rad" }, [left(alone)?, left(both)?]))
     }
@@ -210,7 +207,7 @@ impl Campaign {
     /// [`Failure`]: the measurements' mistakes, or what was never fitted.
     pub fn predict(&self, path: &Path, host: &Host) -> Result<Prediction, Failure> {
         let data = data::read(path, &self.layout, host)?;
-        self.diagnosed.explanation.predict(&data).map_err(plain)
+        Ok(self.diagnosed.explanation.predict(&data)?)
     }
 }
 
@@ -232,7 +229,7 @@ impl Found for Campaign {
             return Ok((self.reported(None).document(), Embedded::default()));
         }
         let explanation = &self.diagnosed.explanation;
-        let gaps = explanation.predict(&self.data).map_err(plain)?;
+        let gaps = explanation.predict(&self.data)?;
         let placed = explanation.placed();
         let fitted = Fitted { placed: &placed, gaps: &gaps };
         let reported = self.reported(Some(fitted));

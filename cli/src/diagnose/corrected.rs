@@ -151,7 +151,7 @@ pub fn exported(robot: &Robot, format: Format) -> Result<(String, Option<String>
         Format::Urdf => (urdf(robot), lost_in_urdf(robot), "a URDF"),
         Format::Mjcf => (mjcf(robot), lost_in_mjcf(robot), "an MJCF"),
     };
-    let text = written.map_err(|error| Failure::new(error.to_string()))?;
+    let text = written?;
     let sentence =
         format!("{name} has no place for {}: --write-robot keeps all of it", lost.join(", "));
     Ok((text, (!lost.is_empty()).then_some(sentence)))

@@ -2,16 +2,11 @@
 
 use stiffarm_gap::Measurements;
 use stiffarm_gap::gap::Statistics;
+use stiffarm_gap::io::{INCH, POUND};
 use stiffarm_gap::measurement::Row;
 use stiffarm_gap::observe::View;
 
 use crate::terminal::text::{decimals, fixed, short};
-
-/// m.
-const INCH: f64 = 0.0254;
-
-/// N.
-const POUND: f64 = 4.448_221_615_260_5;
 
 /// Below this a thousandth of the unit is shown.
 const SMALL: f64 = 2e-4;

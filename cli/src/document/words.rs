@@ -16,9 +16,17 @@ pub fn named(effect: &str, place: &str) -> String {
 
 /// With a capital letter at its beginning.
 pub fn capital(text: &str) -> String {
+    begun(text, |letter| letter.to_uppercase().to_string())
+}
+
+/// With a small letter at its beginning.
+pub fn lower(text: &str) -> String {
+    begun(text, |letter| letter.to_lowercase().to_string())
+}
+
+fn begun(text: &str, as_first: fn(char) -> String) -> String {
     let mut letters = text.chars();
-    let first = letters.next().map(|c| c.to_uppercase().to_string());
-    first.unwrap_or_default() + letters.as_str()
+    letters.next().map(as_first).unwrap_or_default() + letters.as_str()
 }
 
 /// `a, b and c`, with `and` as what stands before the last.
@@ -27,6 +35,18 @@ pub fn joined(entries: &[String], and: &str) -> String {
         [first @ .., last] if !first.is_empty() => format!("{}{and}{last}", first.join(", ")),
         _ => entries.concat(),
     }
+}
+
+/// Values under the key that they share, in the order in which the keys first appear.
+pub fn gathered<K: PartialEq, V>(pairs: impl Iterator<Item = (K, V)>) -> Vec<(K, Vec<V>)> {
+    let mut all: Vec<(K, Vec<V>)> = Vec::new();
+    for (key, value) in pairs {
+        match all.iter_mut().find(|(known, _)| *known == key) {
+            Some((_, values)) => values.push(value),
+            None => all.push((key, vec![value])),
+        }
+    }
+    all
 }
 
 /// A part in per cent.

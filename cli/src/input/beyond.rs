@@ -32,10 +32,10 @@ impl Source {
     /// # Errors
     /// [`Failure`]: a table without numbers; the reading has seen the effects.
     pub fn as_it_stands(&self) -> Result<(Arm, Vec<Known>), Failure> {
-        let wrong = |error: String| Failure::new(error);
-        let arm = stiffarm_gap::robot::arm(&self.file).map_err(|e| wrong(e.to_string()))?;
+        let arm = stiffarm_gap::robot::arm(&self.file)?;
         let known = Known::all(&self.file, &arm, &Catalogue::default());
-        let known = known.map_err(|e| wrong(e.iter().map(ToString::to_string).collect()))?;
+        let wrong = |all: Vec<_>| all.iter().map(ToString::to_string).collect::<String>();
+        let known = known.map_err(|all| Failure::new(wrong(all)))?;
         Ok((arm, known))
     }
 
@@ -147,7 +147,7 @@ impl Source {
         }
         match folded(&self.robot, &Catalogue::default()) {
             Ok((robot, known)) => Ok(Source { robot, known, ..self }),
-            Err(FoldError::Robot(error)) => Err(Failure::new(error.to_string())),
+            Err(FoldError::Robot(error)) => Err(error.into()),
             Err(FoldError::Effects(wrong)) => {
                 Err(self.mistakes(wrong.iter().map(|e| (&e.at, e.message.clone(), e.help.clone()))))
             }

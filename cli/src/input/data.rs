@@ -66,8 +66,7 @@ pub fn layout_beside(
 /// # Errors
 /// [`Failure`] if a marker of the robot has no numbers.
 pub fn layout(source: &Source) -> Result<Layout, Failure> {
-    let layout = stiffarm_gap::robot::layout(&source.robot);
-    layout.map_err(|error| Failure::new(error.to_string()))
+    Ok(stiffarm_gap::robot::layout(&source.robot)?)
 }
 
 /// Reads a file, and says which rows are left out unless `quiet`.

@@ -121,7 +121,7 @@ impl Source {
     /// # Errors
     /// [`Failure`] if something in it has no number.
     pub fn arm(&self) -> Result<Arm, Failure> {
-        stiffarm_gap::robot::arm(&self.robot).map_err(|error| Failure::new(error.to_string()))
+        Ok(stiffarm_gap::robot::arm(&self.robot)?)
     }
 
     /// The same for a command that stands at the arm's base.

@@ -66,7 +66,7 @@ impl Learnt {
         data::doubted(arm, &data, &options.nuisances, host);
         let stages = Stages::new(host);
         stages.say(format!("diagnosing {}", path.display()));
-        let found = diagnose_with(arm, &data, &options, &|_| {}).map_err(plain)?;
+        let found = diagnose_with(arm, &data, &options, &|_| {})?;
         drop(stages);
         let findings = found.diagnosis.findings.len();
         let file = path.display().to_string();
@@ -91,8 +91,4 @@ impl Learnt {
     pub fn name(&self) -> String {
         self.name.clone()
     }
-}
-
-fn plain(error: DiagnoseError) -> Failure {
-    Failure::new(error.to_string())
 }

@@ -3,45 +3,57 @@
 use nalgebra::Vector6;
 use stiffarm_codegen::robot::Frame;
 use stiffarm_gap::dexterity::design::{Design, Plan, Planned};
+use stiffarm_gap::io::{Columns, digits, quoted};
 use stiffarm_gap::measurement::{DISPLACEMENT_NAMES, Dimension, POSE_NAMES, WRENCH_NAMES};
-use stiffarm_gap::observe::{Aim, Seen};
+use stiffarm_gap::observe::Seen;
 
 use crate::input::source::Source;
-use crate::terminal::text::quoted;
 
 /// The measurement file, its measured columns empty.
 pub fn file(source: &Source, plan: &Plan, found: &Design) -> String {
-    let revolute: Vec<bool> = source.readings().iter().map(|d| *d == Dimension::Angle).collect();
-    let mut heads = vec!["pose".to_owned()];
-    heads.extend(source.heads());
-    let loaded: Vec<usize> =
-        (0..6).filter(|&k| plan.loads.iter().any(|load| load[k] != 0.0)).collect();
-    heads.extend(
-        loaded.iter().map(|&k| format!("{}[{}]", WRENCH_NAMES[k], if k < 3 { "N" } else { "Nm" })),
-    );
-    let directed = found.tests.iter().any(|test| test.direction.is_some());
-    if directed {
-        heads.extend((1..=revolute.len()).map(|j| format!("s{j}")));
+    let mut columns: Columns<'_, Line<'_>> = Columns::default();
+    columns.add("pose", |line| (line.number + 1).to_string());
+    for (j, (head, reading)) in source.heads().zip(source.readings()).enumerate() {
+        // To a thousandth of a degree or millimetre: finer than a controller is told.
+        columns.add(head, move |line| match reading {
+            Dimension::Angle => digits(line.test.q[j].to_degrees(), 3),
+            _ => digits(1e3 * line.test.q[j], 3),
+        });
     }
-    let aims: Vec<&Aim> = plan.bench.iter().collect();
-    let seen = [Seen::Point, Seen::Plane];
-    let things: Vec<Seen> =
-        seen.into_iter().filter(|seen| aims.iter().any(|aim| aim.seen == *seen)).collect();
-    heads.extend(things.iter().map(|seen| seen.thing().to_owned()));
+    for k in (0..6).filter(|&k| plan.loads.iter().any(|load| load[k] != 0.0)) {
+        let unit = if k < 3 { "N" } else { "Nm" };
+        columns.add(format!("{}[{unit}]", WRENCH_NAMES[k]), move |line| digits(line.load[k], 6));
+    }
+    let directed = found.tests.iter().any(|test| test.direction.is_some());
+    for j in (0..source.robot.joints.len()).filter(|_| directed) {
+        let side = move |line: &Line<'_>| line.test.direction.as_ref().map(|side| side[j]);
+        columns.add(format!("s{}", j + 1), move |line| {
+            side(line).map_or_else(String::new, |side| side.to_string())
+        });
+    }
+    let aims = &plan.bench;
+    for seen in [Seen::Point, Seen::Plane] {
+        if aims.iter().any(|aim| aim.seen == seen) {
+            columns.add(seen.thing(), move |line| {
+                let aim = line.test.thing.map(|thing| &aims[thing]);
+                quoted(aim.filter(|aim| aim.seen == seen).map(|aim| aim.name.as_str()))
+            });
+        }
+    }
     let names = if found.displacements { DISPLACEMENT_NAMES } else { POSE_NAMES };
     let measured = match (aims.is_empty(), plan.noise_rotation) {
         (false, _) => 0,
         (true, None) => 3,
         (true, Some(_)) => 6,
     };
-    heads.extend((0..measured).map(|k| {
+    for (k, name) in names.into_iter().enumerate().take(measured) {
         let unit = match (k < 3, found.displacements) {
             (true, _) => "mm",
             (false, true) => "mrad",
             (false, false) => "deg",
         };
-        format!("{}[{unit}]", names[k])
-    }));
+        columns.add(format!("{name}[{unit}]"), |_| String::new());
+    }
     let (frame, axes) = match source.robot.base == Frame::default() {
         true => ("base frame", "base axes"),
         false => ("frame in which [base] stands", "that frame's axes; loads in base axes"),
@@ -49,10 +61,6 @@ pub fn file(source: &Source, plan: &Plan, found: &Design) -> String {
     let what = match found.displacements {
         true => "loaded minus unloaded, of the tool origin".to_owned(),
         false => format!("of the tool in the {frame}, before and under the load"),
-    };
-    let sides = match directed {
-        true => "# s1 … say from which side each joint comes to rest: 1 with rising readings.\n",
-        false => "",
     };
     let task = match measured {
         0 => {
@@ -62,39 +70,19 @@ pub fn file(source: &Source, plan: &Plan, found: &Design) -> String {
         _ => format!("fill in {} to {}, {what}, {axes}", names[0], names[measured - 1]),
     };
     let robot = source.robot.name.replace(char::is_control, " ");
-    let mut text = format!("# {robot}: {task}.\n{sides}{}\n", heads.join(","));
-    for (k, test) in found.tests.iter().enumerate() {
-        let zero = Vector6::zeros();
-        let wrenches: &[&Vector6<f64>] = match found.displacements {
-            true => &[&test.wrench],
-            false => &[&zero, &test.wrench],
-        };
-        for load in wrenches {
-            let mut cells = vec![format!("{}", k + 1)];
-            cells.extend(readings(test, &revolute));
-            cells.extend(loaded.iter().map(|&k| plain(load[k], 6)));
-            cells.extend(test.direction.iter().flatten().map(i8::to_string));
-            let thing = test.thing.map(|thing| aims[thing]);
-            let name =
-                |seen: &Seen| thing.filter(|aim| aim.seen == *seen).map(|aim| quoted(&aim.name));
-            cells.extend(things.iter().map(|seen| name(seen).unwrap_or_default()));
-            cells.extend((0..measured).map(|_| String::new()));
-            text.push_str(&cells.join(","));
-            text.push('\n');
-        }
-    }
-    text
+    let sides = "s1 … say from which side each joint comes to rest: 1 with rising readings.";
+    let sides = directed.then(|| sides.to_owned());
+    let lines = found.tests.iter().enumerate().flat_map(|(number, test)| {
+        let unloaded = (!found.displacements).then(Vector6::zeros);
+        unloaded.into_iter().chain([test.wrench]).map(move |load| Line { number, test, load })
+    });
+    columns.text([format!("{robot}: {task}.")].into_iter().chain(sides), lines)
 }
 
-/// To a thousandth of a degree or millimetre: finer than a controller is told.
-fn readings(test: &Planned, revolute: &[bool]) -> Vec<String> {
-    let shown = |(q, turns): (&f64, &bool)| plain(if *turns { q.to_degrees() } else { 1e3 * q }, 3);
-    test.q.iter().zip(revolute).map(shown).collect()
-}
-
-/// With so many digits behind the point at most.
-fn plain(x: f64, digits: usize) -> String {
-    let text = format!("{x:.digits$}");
-    let short = text.trim_end_matches('0').trim_end_matches('.');
-    if short == "-0" { "0".to_owned() } else { short.to_owned() }
+/// A line of the file.
+struct Line<'a> {
+    /// Of the pose, from 0.
+    number: usize,
+    test: &'a Planned,
+    load: Vector6<f64>,
 }

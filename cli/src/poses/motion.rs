@@ -11,7 +11,6 @@ use crate::document::words::words;
 use crate::host::Host;
 use crate::input::source::Source;
 use crate::motion;
-use crate::simulate::plain;
 use crate::terminal::failure::Failure;
 use crate::terminal::output::Target;
 use crate::terminal::progress::{PARTS, Progress};
@@ -61,7 +60,7 @@ pub(super) fn run(args: &Args, source: &Source, host: &Host) -> Result<Verdict, 
     let progress = Progress::new(&source.given, PARTS, host);
     let found = excite(&plan, &|part| progress.reach(part, PARTS));
     drop(progress);
-    let found = found.map_err(plain)?;
+    let found = found?;
     let comments = [
         format!("{}: a motion of {} s that may be repeated", arm.name, short(period)),
         "it begins and ends at rest, where its first row is; nothing here knows of floor and cell"
@@ -75,7 +74,7 @@ pub(super) fn run(args: &Args, source: &Source, host: &Host) -> Result<Verdict, 
 }
 
 fn purpose(named: &[String], arm: &Arm) -> Result<Purpose, Failure> {
-    let suspect = |text: &String| MotionTruth::place(text, arm, 1).map_err(plain);
+    let suspect = |text: &String| MotionTruth::place(text, arm, 1);
     let named: Vec<(&'static Law, Spot)> = named.iter().map(suspect).collect::<Result<_, _>>()?;
     Ok(match named[..] {
         [] => Purpose::All(usual(arm)),

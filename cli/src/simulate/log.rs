@@ -2,7 +2,7 @@
 
 use stiffarm_gap::plant::motion::{Logged, MotionTruth, MovingPlant, csv, known};
 
-use super::{Args, plain};
+use super::Args;
 use crate::Verdict;
 use crate::host::Host;
 use crate::input::quantity::counted;
@@ -29,11 +29,11 @@ pub(super) fn run(
     let courses = Courses::of((args.data.as_ref(), host), source, &arm, how, seed)?;
     let stages = courses.stages();
     let truths = args.effects.iter().map(|text| MotionTruth::parse(text, &arm, stages.len()));
-    let truths: Vec<MotionTruth> = truths.collect::<Result<_, _>>().map_err(plain)?;
+    let truths: Vec<MotionTruth> = truths.collect::<Result<_, _>>()?;
     let (logged, recording) = (args.record.logged(), args.record.recording()?);
-    let known = known(&source.motion, &arm, stages.len(), logged).map_err(plain)?;
+    let known = known(&source.motion, &arm, stages.len(), logged)?;
     let plant = MovingPlant::new(&arm, &[&known[..], &truths].concat(), logged, recording);
-    let runs = plant.record(&stages, seed).map_err(plain)?;
+    let runs = plant.record(&stages, seed)?;
     let what = match &args.data {
         Some(path) => format!("along the commands of {}", path.display()),
         None => "along motions that were drawn".to_owned(),

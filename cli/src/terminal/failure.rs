@@ -77,6 +77,34 @@ impl Failure {
     }
 }
 
+/// Errors of the libraries, whose sentences say all: each is a failure as it is.
+macro_rules! plain {
+    ($($error:ty),+ $(,)?) => {$(
+        impl From<$error> for Failure {
+            fn from(error: $error) -> Failure {
+                Failure::new(error.to_string())
+            }
+        }
+    )+};
+}
+
+plain!(
+    stiffarm_codegen::emit::SymbolicTable,
+    stiffarm_gap::dexterity::DexterityError,
+    stiffarm_gap::dexterity::design::SuspectError,
+    stiffarm_gap::diagnose::DiagnoseError,
+    stiffarm_gap::excite::ExciteError,
+    stiffarm_gap::identify::measured::MeasuredError,
+    stiffarm_gap::io::ReadError,
+    stiffarm_gap::log::Refused,
+    stiffarm_gap::motion::LimitsError,
+    stiffarm_gap::plant::PlantError,
+    stiffarm_gap::plant::TruthError,
+    stiffarm_gap::plant::motion::MotionError,
+    stiffarm_gap::robot::RobotError,
+    stiffarm_gap::study::withhold::WithholdError,
+);
+
 /// What the system says, in words.
 pub fn reason(error: &std::io::Error) -> String {
     let known = match error.kind() {

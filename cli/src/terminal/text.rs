@@ -1,6 +1,7 @@
 //! Text for a terminal: numbers, aligned columns, bars.
 
 use console::{measure_text_width, style};
+pub use stiffarm_gap::io::listed;
 
 /// Of a quotation that is longer nobody reads all.
 const LONGEST_QUOTED: usize = 120;
@@ -124,15 +125,6 @@ pub fn left_bar(before: f64, after: f64, width: usize) -> String {
     format!("{}{}", "█".repeat(after), "░".repeat(before.saturating_sub(after)))
 }
 
-/// The first entries of a list, and how many more there are.
-pub fn listed(entries: &[String], most: usize) -> String {
-    let shown = entries.iter().take(most).cloned().collect::<Vec<_>>().join(", ");
-    match entries.len().checked_sub(most) {
-        None | Some(0) => shown,
-        Some(rest) => format!("{shown} and {rest} more"),
-    }
-}
-
 /// A sentence whose quotations, between `` ` ``, are cut where they are no longer read.
 pub fn clipped(message: &str) -> String {
     let cut = |(k, part): (usize, &str)| {
@@ -179,14 +171,6 @@ pub fn good(text: impl AsRef<str>) -> String {
 /// What is not.
 pub fn bad(text: impl AsRef<str>) -> String {
     style(text.as_ref()).red().bold().to_string()
-}
-
-/// A cell of a CSV file, whatever it holds.
-pub fn quoted(text: &str) -> String {
-    match text.contains([',', '"', '\n', '\r', '#']) {
-        true => format!("\"{}\"", text.replace('"', "\"\"")),
-        false => text.to_owned(),
-    }
 }
 
 #[cfg(test)]

@@ -51,7 +51,7 @@ pub fn document(report: &Report, position_log: bool) -> Document {
     }
 }
 
-fn names(effects: &[&str]) -> String {
+fn names(effects: &[String]) -> String {
     match effects {
         [] => String::new(),
         _ => {

@@ -16,6 +16,7 @@ use stiffarm_kernels::generic::Arm;
 pub use basis::{Basis, norm};
 use columns::{Columns, Suspects};
 
+use crate::gap::middle;
 use crate::motion::{Fourier, Limits};
 use crate::plant::motion::{Law, Logged, MotionError, Spot};
 use crate::rng::{Rng, Stream};
@@ -167,13 +168,13 @@ pub fn excite(plan: &Plan<'_>, done: &dyn Fn(f64)) -> Result<Excitation, ExciteE
         }
         done((DRAWN + k + 1) as f64 / all);
     }
-    let usual = median(of_chance.iter().map(|(value, _)| *value));
+    let usual = middle(of_chance.iter().map(|(value, _)| *value)).unwrap_or(f64::NAN);
     let deviations = columns.deviations();
     let told = suspects.numbers.iter().enumerate().map(|(k, number)| Told {
         effect: number.law.name,
         spot: number.spot,
         number: number.name,
-        narrower: median(of_chance.iter().map(|(_, sd)| sd[k])) / deviations[k],
+        narrower: middle(of_chance.iter().map(|(_, sd)| sd[k])).unwrap_or(f64::NAN) / deviations[k],
     });
     let efficiency = match plan.purpose {
         Purpose::All(_) => ((value - usual) / suspects.numbers.len() as f64).exp(),
@@ -181,12 +182,6 @@ pub fn excite(plan: &Plan<'_>, done: &dyn Fn(f64)) -> Result<Excitation, ExciteE
     };
     let told = told.collect();
     Ok(Excitation { course, told, hidden, value, of_chance: usual, efficiency })
-}
-
-fn median(values: impl Iterator<Item = f64>) -> f64 {
-    let mut values: Vec<f64> = values.collect();
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
 }
 
 fn check(plan: &Plan<'_>) -> Result<(), ExciteError> {

@@ -107,12 +107,11 @@ fn two_effects_are_told_from_each_other() {
 /// chance of the same time and limits: the chosen one's intervals are narrower on average.
 #[test]
 fn intervals_shrink_on_simulated_logs() {
-    use crate::log::{Log, LogOptions, Names, diagnose};
-    use crate::plant::motion::{MotionTruth, MovingPlant, Recording, Stage, csv};
+    use crate::log::{Log, LogOptions, diagnose};
+    use crate::plant::motion::{MotionTruth, MovingPlant, Recording, Stage};
     let wanted = of(&["coulomb_friction", "viscous_friction"]);
     let (found, limits) = found(Purpose::All(wanted), 100).unwrap();
     let arm = arm();
-    let motions: Vec<_> = arm.joints.iter().map(|joint| joint.motion).collect();
     let truths: Vec<MotionTruth> = (1..=3)
         .flat_map(|j| {
             ["coulomb_friction", "viscous_friction"]
@@ -126,9 +125,8 @@ fn intervals_shrink_on_simulated_logs() {
         let logged = Logged::Torque(Side::Motor);
         let recording = Recording { torque: 0.05, ..Recording::default() };
         let plant = MovingPlant::new(&arm, &truths, logged, recording);
-        let runs = plant.record(&[Stage { course: &course, payload: None }], seed).unwrap();
-        let told = csv(&arm, logged, &runs, &[]);
-        let log = Log::from_bytes("log", told.as_bytes(), &motions, &Names::default()).unwrap();
+        let told = plant.text(&[Stage { course: &course, payload: None }], seed).unwrap();
+        let log = Log::of_arm(&arm, "log", &told).unwrap();
         let found = diagnose(&arm, &log, &options).unwrap();
         // In multiples of the noise, which the plant makes as large as the motion's torques are.
         let number = |name: &str, joint: usize| {

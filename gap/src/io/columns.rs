@@ -15,8 +15,11 @@ pub(crate) fn split(header: &str) -> (&str, Option<&str>) {
     }
 }
 
+/// A column that is one of ours: our name of it, the same for all that mean the same, and what the map says of it.
+pub(crate) type Found = (String, Theirs);
+
 /// The header of a table, and what its names may mean.
-pub(crate) struct Header<'h, 'm> {
+pub(crate) struct Header<'h> {
     /// Its line; `None` of a file without lines.
     pub(crate) line: Option<u64>,
     /// As the file has them.
@@ -24,33 +27,33 @@ pub(crate) struct Header<'h, 'm> {
     /// A name of theirs without its unit.
     pub(crate) bare: &'h dyn Fn(&str) -> &str,
     /// What is said of the columns.
-    pub(crate) map: &'m Map,
+    pub(crate) map: &'h Map,
     /// What a name of ours in a map stands for: the same name for all that mean the same.
     pub(crate) known: &'h dyn Fn(&str) -> Option<String>,
     /// All names of ours, for a message.
     pub(crate) ours: &'h str,
 }
 
-impl<'m> Header<'_, 'm> {
+impl Header<'_> {
     /// A column of it.
     pub(crate) fn column(&self, index: usize) -> Column {
         Column { number: index + 1, header: self.names[index].clone() }
     }
 
-    /// Of each column its name among ours, by the map or as `meaning` has it, and the map's entry. What
-    /// the map gives to a column is not what another one means.
+    /// Of each column what it is among ours, by the map or as `meaning` has it. What the map gives to a
+    /// column is not what another one means.
     pub(crate) fn assign(
         &self,
         meaning: &dyn Fn(usize) -> Option<String>,
         mistakes: &mut Mistakes,
-    ) -> Vec<Option<(String, Option<&'m Theirs>)>> {
-        let mut assigned: Vec<Option<(String, Option<&Theirs>)>> = vec![None; self.names.len()];
+    ) -> Vec<Option<Found>> {
+        let mut assigned: Vec<Option<Found>> = vec![None; self.names.len()];
         let mut given: HashSet<String> = HashSet::new();
         for (ours, theirs) in &self.map.columns {
             match self.said(ours, theirs, &assigned) {
                 Ok((ours, index)) => {
-                    assigned[index] = Some((ours.clone(), Some(theirs)));
-                    given.insert(ours);
+                    given.insert(ours.clone());
+                    assigned[index] = Some((ours, theirs.clone()));
                 }
                 Err(fault) => mistakes.add(fault.within(self.line, None)),
             }
@@ -66,12 +69,11 @@ impl<'m> Header<'_, 'm> {
         let open = assigned.iter_mut().enumerate().filter(|(_, slot)| slot.is_none());
         for (index, slot) in open.filter(|(index, _)| !self.ignores(*index)) {
             let meant = meaning(index).filter(|ours| !given.contains(ours));
-            *slot = meant.map(|ours| (ours, None));
+            *slot = meant.map(|ours| (ours, Theirs::from(self.names[index].clone())));
         }
         let mut first: HashMap<&str, usize> = HashMap::with_capacity(assigned.len());
-        for (index, (ours, _)) in
-            assigned.iter().enumerate().filter_map(|(k, slot)| Some((k, slot.as_ref()?)))
-        {
+        let found = assigned.iter().enumerate().filter_map(|(k, slot)| Some((k, slot.as_ref()?)));
+        for (index, (ours, _)) in found {
             let before = *first.entry(ours).or_insert(index);
             if before < index {
                 let (number, one) = (before + 1, &self.names[before]);
@@ -96,7 +98,7 @@ impl<'m> Header<'_, 'm> {
         &self,
         ours: &str,
         theirs: &Theirs,
-        assigned: &[Option<(String, Option<&Theirs>)>],
+        assigned: &[Option<Found>],
     ) -> Result<(String, usize), Fault> {
         let map = &self.map.file;
         let Some(known) = (self.known)(ours) else {

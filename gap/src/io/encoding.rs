@@ -26,10 +26,8 @@ impl Encoding {
     /// Of a text as another program wrote it, which is read to its end for that.
     pub(crate) fn of(source: impl Read) -> io::Result<Encoding> {
         let mut source = BufReader::with_capacity(CHUNK, source);
-        match source.fill_buf()? {
-            [0xff, 0xfe, ..] => return Ok(Encoding::Utf16 { lower_first: true }),
-            [0xfe, 0xff, ..] => return Ok(Encoding::Utf16 { lower_first: false }),
-            _ => {}
+        if let Some(marked) = Encoding::marked(source.fill_buf()?) {
+            return Ok(marked);
         }
         // What a chunk leaves of a character at its end.
         let mut begun: Vec<u8> = Vec::new();
@@ -48,6 +46,32 @@ impl Encoding {
             };
             begun.drain(..rest);
         }
+    }
+
+    /// Of a text that begins so, by its lines down to the first that is no comment: a damaged byte further down is no
+    /// other encoding.
+    pub(crate) fn of_head(head: &[u8]) -> Encoding {
+        let mut lines = head.split_inclusive(|b| matches!(b, b'\n' | b'\r'));
+        let is_first = |line: &[u8]| !line.is_empty() && !line.starts_with(b"#");
+        let is_read = |line: &&[u8]| is_first(line.trim_ascii());
+        let behind: usize = match lines.find(is_read) {
+            Some(_) => lines.map(<[u8]>::len).sum(),
+            None => 0,
+        };
+        let begun = core::str::from_utf8(&head[..head.len() - behind]);
+        let other = begun.is_err_and(|error| error.error_len().is_some());
+        let unmarked = if other { Encoding::Windows1252 } else { Encoding::Utf8 };
+        Encoding::marked(head).unwrap_or(unmarked)
+    }
+
+    /// By a byte order mark of UTF-16.
+    fn marked(head: &[u8]) -> Option<Encoding> {
+        let lower_first = match head {
+            [0xff, 0xfe, ..] => true,
+            [0xfe, 0xff, ..] => false,
+            _ => return None,
+        };
+        Some(Encoding::Utf16 { lower_first })
     }
 
     /// What it is called, where that is not UTF-8.
@@ -159,5 +183,14 @@ mod tests {
             assert_eq!(text(&windows), (expected, Some("Windows-1252")));
         }
         assert_eq!(text(b"cut off: \xe2\x82"), ("cut off: â‚".to_owned(), Some("Windows-1252")));
+    }
+
+    #[test]
+    fn the_lines_to_the_header_decide() {
+        let of = Encoding::of_head;
+        assert_eq!(of(b"# H\xf6he\nt,q1\n"), Encoding::Windows1252);
+        assert_eq!(of("# Höhe\n\nt,q1\n0,".as_bytes()), Encoding::Utf8);
+        assert_eq!(of(b"t,q1\n0,\xff\n"), Encoding::Utf8);
+        assert_eq!(of(b"\xfe\xff\0t"), Encoding::Utf16 { lower_first: false });
     }
 }

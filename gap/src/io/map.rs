@@ -21,7 +21,7 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 
 use super::convention::Convention;
-use super::mistake::{Fault, ReadError};
+use super::mistake::{Fault, Mistake, ReadError};
 use super::source::from_toml;
 use super::table::Separator;
 
@@ -77,10 +77,17 @@ enum Written {
     },
 }
 
+impl From<String> for Theirs {
+    /// A column as it stands.
+    fn from(column: String) -> Theirs {
+        Theirs { column, unit: None, factor: 1.0, offset: 0.0 }
+    }
+}
+
 impl From<Written> for Theirs {
     fn from(written: Written) -> Theirs {
         match written {
-            Written::Name(column) => Theirs { column, unit: None, factor: 1.0, offset: 0.0 },
+            Written::Name(column) => column.into(),
             Written::More { column, unit, factor, offset } => Theirs {
                 column,
                 unit,
@@ -95,6 +102,11 @@ impl Map {
     /// What separates cells, if it is said.
     pub(crate) fn separator(&self) -> Option<Separator> {
         self.separator.map(Separator::of)
+    }
+
+    /// There is no header where the map says.
+    pub(crate) fn no_header(line: u64) -> Mistake {
+        Fault::new("no header", "a row of names there, as the map says", "").at(line, None)
     }
 
     /// Reads a map; `file` is what messages call it.

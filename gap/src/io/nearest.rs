@@ -1,4 +1,4 @@
-//! The name that may have been meant.
+//! Names in messages: the one that may have been meant, and lists of them.
 
 /// Fewer letters are a part of too many names.
 const PART: usize = 4;
@@ -30,6 +30,15 @@ pub fn nearest<'a>(found: &str, candidates: impl IntoIterator<Item = &'a str>) -
 /// The question at the end of a message; empty where nothing is near.
 pub fn did_you_mean(near: Option<&str>) -> String {
     near.map_or_else(String::new, |n| format!("; did you mean `{n}`?"))
+}
+
+/// The first entries of a list, and how many more there are.
+pub fn listed(entries: &[impl ToString], most: usize) -> String {
+    let shown = entries.iter().take(most).map(ToString::to_string).collect::<Vec<_>>().join(", ");
+    match entries.len().checked_sub(most) {
+        None | Some(0) => shown,
+        Some(rest) => format!("{shown} and {rest} more"),
+    }
 }
 
 #[cfg(test)]

@@ -55,7 +55,12 @@ const fn unit(name: &'static str, dimension: Dimension, factor: f64) -> Unit {
 }
 
 const DEGREE: f64 = PI / 180.0;
-const INCH: f64 = 0.0254;
+
+/// An inch, m.
+pub const INCH: f64 = 0.0254;
+
+/// A pound-force, N.
+pub const POUND: f64 = 4.448_221_615_260_5;
 
 /// Every unit; of each quantity the SI unit first.
 const UNITS: [Unit; 42] = [
@@ -68,7 +73,7 @@ const UNITS: [Unit; 42] = [
     unit("mrad", Dimension::Angle, 1e-3),
     unit("N", Dimension::Force, 1.0),
     unit("kN", Dimension::Force, 1e3),
-    unit("lbf", Dimension::Force, 4.448_221_615_260_5),
+    unit("lbf", Dimension::Force, POUND),
     unit("kgf", Dimension::Force, 9.806_65),
     unit("Nm", Dimension::Moment, 1.0),
     unit("Nmm", Dimension::Moment, 1e-3),

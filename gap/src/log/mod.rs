@@ -33,6 +33,6 @@ pub use model::Model;
 pub use crate::report::LogDiagnosis;
 pub use crate::report::log as report;
 pub use options::{LogOptions, Refused};
-pub use read::{Format, Hole, Log, Names, Opened, Run, Signal, TorqueSide, is_log};
+pub use read::{Format, Hole, Log, Names, Opened, Run, Signal, TorqueSide};
 pub use scene::Domain;
 pub use verdict::{diagnose, diagnosed, diagnosed_with};

@@ -3,6 +3,7 @@
 use core::ops::RangeInclusive;
 
 use super::signal::Signals;
+use crate::gap::ascending;
 
 /// Periods per turn of a ripple that are looked at: what turns once is the weights' and a counterbalance's.
 pub const ORDERS: RangeInclusive<usize> = 2..=400;
@@ -29,8 +30,7 @@ impl Pace<'_> {
     pub fn slow(&self, joint: usize) -> f64 {
         let still = self.still[joint];
         let moves = self.signals.qd[joint].iter().map(|v| v.abs()).filter(|v| *v > still);
-        let mut speeds: Vec<f64> = moves.collect();
-        speeds.sort_by(f64::total_cmp);
+        let speeds = ascending(moves);
         speeds.get((SLOW * speeds.len() as f64) as usize).copied().unwrap_or(still)
     }
 

@@ -5,44 +5,11 @@ use super::payload::Payloads;
 use super::role::{Family, Layout, Role};
 use super::told::Told;
 use super::{Kind, Row};
+use crate::io::cell::{empty, number, too_large};
 use crate::io::{Convention, Fault, Mistake, Unit, did_you_mean, nearest};
 
 /// A distance that is read.
 const READ: Role = Role::Measured(Family::Distance, 0);
-
-/// A number as the cell has it, before its unit; `expected` is what the message asks for.
-pub(crate) fn number(cell: &str, expected: impl Fn() -> String) -> Result<f64, Fault> {
-    if cell.is_empty() {
-        return Err(empty(&expected()));
-    }
-    let (found, again) = (format!("`{cell}`"), "remove the row or measure again");
-    match cell.parse::<f64>() {
-        Ok(value) if value.is_finite() => Ok(value),
-        Ok(value) if value.is_nan() => {
-            Err(Fault::hole(found + ", not a number", expected(), again))
-        }
-        Ok(_) if cell.contains(['n', 'N']) => {
-            Err(Fault::new(found + ", infinity", expected(), again))
-        }
-        Ok(_) => Err(too_large(cell, &expected())),
-        Err(_) if cell.replacen(',', ".", 1).parse::<f64>().is_ok() => {
-            Err(Fault::new(found + ", a decimal comma", "", "write 1.5, not 1,5"))
-        }
-        Err(_) => {
-            let has_digits = cell.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c));
-            let unit = if has_digits { "; a unit belongs in the header, `name[unit]`" } else { "" };
-            Err(Fault::new(found, expected(), format!("write a plain number{unit}")))
-        }
-    }
-}
-
-fn too_large(cell: &str, expected: &str) -> Fault {
-    Fault::new(format!("`{cell}`, too large for a double"), expected, "mend the exponent")
-}
-
-fn empty(expected: &str) -> Fault {
-    Fault::hole("an empty cell", expected, "fill it in, or remove the row")
-}
 
 fn quantity(cell: &str, unit: Option<Unit>) -> Result<f64, Fault> {
     let expected =
@@ -228,35 +195,6 @@ pub(crate) fn only_numbers(cells: &[&str]) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn numbers_are_plain_and_finite() {
-        for (cell, value) in [("1.5", 1.5), ("-2e-3", -2e-3), ("+7", 7.0), (".5", 0.5)] {
-            assert_eq!(number(cell, String::new), Ok(value));
-        }
-        for (cell, told, is_hole) in [
-            ("", "an empty cell", true),
-            ("NaN", ", not a number", true),
-            ("nan", ", not a number", true),
-            ("-NAN", ", not a number", true),
-            ("inf", ", infinity", false),
-            ("-Infinity", ", infinity", false),
-            ("INF", ", infinity", false),
-            ("1e999", ", too large for a double", false),
-            ("1,5", ", a decimal comma", false),
-            ("abc", "`: write a plain number", false),
-            ("1.5mm", "`: write a plain number; a unit", false),
-            ("0x10", "`: write a plain number; a unit", false),
-            ("1 2", "`: write a plain number", false),
-            ("1,2,3", "`: write a plain number", false),
-            ("--1", "`: write a plain number", false),
-            ("e", "`: write a plain number", false),
-        ] {
-            let fault = number(cell, String::new).unwrap_err();
-            assert!(fault.to_string().contains(told), "{fault}");
-            assert_eq!(fault.is_hole, is_hole, "{cell}");
-        }
-    }
 
     #[test]
     fn a_unit_can_make_a_number_too_large() {

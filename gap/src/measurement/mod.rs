@@ -15,6 +15,7 @@
 mod cells;
 mod group;
 mod header;
+mod kind;
 mod payload;
 mod role;
 mod seen;
@@ -34,6 +35,7 @@ pub use role::{
     POSE_NAMES, READING_NAMES, SIGMA_PREFIX, SIM_PREFIX, TILT_NAMES, WRENCH_NAMES,
 };
 
+use crate::io::cell::number;
 use crate::io::table::{Records, Separator, commented};
 #[doc(hidden)]
 pub use crate::io::{
@@ -397,7 +399,7 @@ fn read_into(
     }
     let names: Vec<String> = names.into_iter().map(str::to_owned).collect();
     let heads = header::read(line, &names, layout, mistakes);
-    let kind = header::kind(&heads, line, layout, mistakes);
+    let kind = kind::of(&heads, line, layout, mistakes);
     let has_turns = matches!(kind, Some((Kind::Pose { orientation: true }, _)));
     let orientation = orientation(&records.above, has_turns)?;
     let mut extra = extra(&heads, layout);
@@ -434,7 +436,7 @@ fn read_into(
         skipped.drain(..).for_each(|found| mistakes.extend(found));
     }
     let Some((kind, sim_given)) = kind.filter(|_| mistakes.is_empty()) else { return Ok(None) };
-    let poses = group::assign(&mut rows);
+    group::assign(&mut rows);
     let measured = kind.components();
     let unused = |h: &&header::Head| match h.role {
         Some(Role::Sim(_, k) | Role::Sigma(Some((_, k)))) => !measured[k],
@@ -444,23 +446,18 @@ fn read_into(
         _ => false,
     };
     let unit_of = |role| heads.iter().find(|h| h.role == Some(role)).and_then(|h| h.unit);
-    let family = header::family(kind);
+    let has = |is: fn(&Role) -> bool| heads.iter().any(|head| head.role.as_ref().is_some_and(is));
+    let family = kind::family(kind);
     let mut data = Measurements {
-        file: file.to_owned(),
         measured_in: core::array::from_fn(|k| unit_of(Role::Measured(family, k))),
         wrench_in: core::array::from_fn(|k| unit_of(Role::Wrench(k))),
         unused: heads.iter().filter(unused).map(|h| h.column.clone()).collect(),
         extra,
         skipped: skipped.into_iter().flatten().collect(),
-        rows,
-        kind,
         sim_given,
-        by_camera: heads
-            .iter()
-            .any(|h| matches!(h.role, Some(Role::BoardPose(_) | Role::Pixel(_)))),
-        by_board: heads.iter().any(|h| matches!(h.role, Some(Role::BoardPose(_)))),
-        pairs: Vec::new(),
-        poses,
+        by_camera: has(|role| matches!(role, Role::BoardPose(_) | Role::Pixel(_))),
+        by_board: has(|role| matches!(role, Role::BoardPose(_))),
+        ..Measurements::new(file, kind, rows)
     };
     if let Err(mistake) = layout.bench.set_up(&mut data) {
         mistakes.add(mistake);
@@ -535,7 +532,7 @@ impl ExtraColumn {
     fn take(&mut self, line: u64, cells: &[&str]) {
         let Ok(values) = &mut self.values else { return };
         let cell = cells[self.column.number - 1];
-        match cells::number(cell, String::new) {
+        match number(cell, String::new) {
             Ok(value) => values.push(value),
             Err(_) => self.values = Err((line, cell.to_owned())),
         }

@@ -125,6 +125,43 @@ pub(crate) enum Role {
     Extra,
 }
 
+/// The role of the columns of one kind by their number, from 0.
+type Numbered = fn(usize) -> Role;
+
+/// Columns of the joints: a letter before the number.
+const OF_JOINTS: [(char, Numbered); 2] = [('q', Role::Reading), ('s', Role::Direction)];
+
+/// Columns of one kind by their names.
+type Group = (&'static [&'static str], Numbered);
+
+/// All columns but those of the joints and those with a prefix.
+const GROUPS: [Group; 24] = [
+    (&["temperature"], |_| Role::Temperature),
+    (&["time"], |_| Role::Time),
+    (&["pose"], |_| Role::Pose),
+    (&["marker"], |_| Role::Marker),
+    (&["session"], |_| Role::Session),
+    (&["payload"], |_| Role::Payload),
+    (&DISTANCE_NAMES, |k| Role::Measured(Family::Distance, k)),
+    (&["from"], |_| Role::From),
+    (&FROM_NAMES, Role::FromAt),
+    (&["point"], |_| Role::Point),
+    (&["plane"], |_| Role::Plane),
+    (&["along"], |_| Role::Along),
+    (&["zero"], |_| Role::Zero),
+    (&["camera"], |_| Role::Camera),
+    (&["board"], |_| Role::Board),
+    (&[SIGMA], |_| Role::Sigma(None)),
+    (&TILT_NAMES, Role::Tilt),
+    (&POSE_NAMES, |k| Role::Measured(Family::Pose, k)),
+    (&DISPLACEMENT_NAMES, |k| Role::Measured(Family::Displacement, k)),
+    (&WRENCH_NAMES, Role::Wrench),
+    (&NORMAL_NAMES, Role::Normal),
+    (&PIXEL_NAMES, Role::Pixel),
+    (&BOARD_NAMES, Role::BoardPose),
+    (&BOARD_QUATERNION, Role::BoardTurn),
+];
+
 impl Family {
     pub(crate) const ALL: [Family; 3] = [Family::Pose, Family::Displacement, Family::Distance];
 
@@ -166,59 +203,21 @@ impl Role {
 
     /// The role of the column called `name` (without its unit).
     pub(crate) fn of(name: &str, layout: &Layout) -> Result<Role, Fault> {
-        if let Some(joint) = numbered(name, 'q', layout)? {
-            return Ok(Role::Reading(joint));
+        for (letter, role) in OF_JOINTS {
+            if let Some(joint) = numbered(name, letter, layout)? {
+                return Ok(role(joint));
+            }
         }
-        if let Some(joint) = numbered(name, 's', layout)? {
-            return Ok(Role::Direction(joint));
-        }
-        if let Some(k) = WRENCH_NAMES.iter().position(|n| *n == name) {
-            return Ok(Role::Wrench(k));
-        }
-        if let Some((family, k)) = Family::component(name) {
-            return Ok(Role::Measured(family, k));
-        }
-        if let Some((family, k)) = name.strip_prefix(SIM_PREFIX).and_then(Family::component) {
+        let behind = |prefix| name.strip_prefix(prefix).and_then(Family::component);
+        if let Some((family, k)) = behind(SIM_PREFIX) {
             return Ok(Role::Sim(family, k));
         }
-        if let Some(of) = name.strip_prefix(SIGMA_PREFIX).and_then(Family::component) {
+        if let Some(of) = behind(SIGMA_PREFIX) {
             return Ok(Role::Sigma(Some(of)));
         }
-        if let Some(k) = FROM_NAMES.iter().position(|n| *n == name) {
-            return Ok(Role::FromAt(k));
-        }
-        if let Some(k) = BOARD_NAMES.iter().position(|n| *n == name) {
-            return Ok(Role::BoardPose(k));
-        }
-        if let Some(k) = BOARD_QUATERNION.iter().position(|n| *n == name) {
-            return Ok(Role::BoardTurn(k));
-        }
-        if let Some(k) = NORMAL_NAMES.iter().position(|n| *n == name) {
-            return Ok(Role::Normal(k));
-        }
-        if let Some(k) = TILT_NAMES.iter().position(|n| *n == name) {
-            return Ok(Role::Tilt(k));
-        }
-        if let Some(k) = PIXEL_NAMES.iter().position(|n| *n == name) {
-            return Ok(Role::Pixel(k));
-        }
-        Ok(match name {
-            "session" => Role::Session,
-            "payload" => Role::Payload,
-            "from" => Role::From,
-            "point" => Role::Point,
-            "plane" => Role::Plane,
-            "along" => Role::Along,
-            "zero" => Role::Zero,
-            "camera" => Role::Camera,
-            "board" => Role::Board,
-            "temperature" => Role::Temperature,
-            "time" => Role::Time,
-            "pose" => Role::Pose,
-            "marker" => Role::Marker,
-            SIGMA => Role::Sigma(None),
-            _ => Role::Extra,
-        })
+        let within = |(names, role): &Group| names.iter().position(|n| *n == name).map(role);
+        let known = GROUPS.iter().filter(|_| !name.is_empty()).find_map(within);
+        Ok(known.unwrap_or(Role::Extra))
     }
 
     /// The quantity that the column holds; `None` for those that carry no unit.
@@ -267,19 +266,14 @@ fn numbered(name: &str, letter: char, layout: &Layout) -> Result<Option<usize>, 
 
 /// The known column that an unknown one may have been meant to be.
 pub(crate) fn nearest_name(found: &str, layout: &Layout) -> Option<String> {
-    let joints = (1..=layout.motions.len()).flat_map(|j| [format!("q{j}"), format!("s{j}")]);
-    let fixed = ["temperature", "time", "pose", "marker", "session", "payload", "distance", "from"];
-    let bench = ["point", "plane", "along", "zero", "camera", "board", SIGMA];
-    let fixed =
-        fixed.into_iter().chain(FROM_NAMES).chain(bench).chain(TILT_NAMES).map(str::to_owned);
-    let measured = || POSE_NAMES.iter().chain(&DISPLACEMENT_NAMES);
+    let joints = (1..=layout.motions.len()).flat_map(|j| OF_JOINTS.map(|(l, _)| format!("{l}{j}")));
+    let plain = GROUPS.iter().flat_map(|(names, _)| *names).map(|name| (*name).to_owned());
+    let measured = || POSE_NAMES.into_iter().chain(DISPLACEMENT_NAMES);
     let prefixed = |prefix| measured().map(move |n| format!("{prefix}{n}"));
-    let sim = prefixed(SIM_PREFIX).chain(prefixed(SIGMA_PREFIX));
-    let plain = measured().chain(&WRENCH_NAMES);
-    let names: Vec<String> =
-        joints.chain(fixed).chain(sim).chain(plain.map(|n| (*n).to_owned())).collect();
+    let prefixed = prefixed(SIM_PREFIX).chain(prefixed(SIGMA_PREFIX));
+    let names: Vec<String> = joints.chain(plain).chain(prefixed).collect();
     // One edit turns any short name into any other; of those only the case can be mistaken.
-    let of_case = names.iter().find(|n| n.eq_ignore_ascii_case(found));
+    let of_case = names.iter().find(|n| !n.is_empty() && n.eq_ignore_ascii_case(found));
     let near = || nearest(found, names.iter().map(String::as_str).filter(|n| n.len() > 3));
     of_case.map(String::as_str).or_else(near).map(str::to_owned)
 }

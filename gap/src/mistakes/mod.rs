@@ -20,6 +20,7 @@ use stiffarm_kernels::generic::Arm;
 use crate::diagnose::{Nuisance, Options};
 use crate::doubts::reach;
 use crate::effects::{Catalogue, Known};
+use crate::gap::{ascending, middle, percentile};
 use crate::measurement::Measurements;
 use crate::report::campaign::{Mistaken, Wrong};
 use crate::simulate::is_stream;
@@ -107,15 +108,12 @@ pub(crate) fn find(
 /// Half of the space in which three quarters of the measured points are, m.
 fn extent(data: &Measurements) -> f64 {
     let spread = |axis: usize| {
-        let mut all: Vec<f64> = data.rows.iter().map(|row| row.measured[axis]).collect();
-        all.sort_by(f64::total_cmp);
-        let at = |part: f64| crate::gap::percentile(&all, part);
+        let all = ascending(data.rows.iter().map(|row| row.measured[axis]));
+        let at = |part: f64| percentile(&all, part);
         at(0.875) - at(0.125)
     };
-    let mut spreads = [0, 1, 2].map(spread);
-    spreads.sort_by(f64::total_cmp);
     // One coordinate may be in another unit, whatever it says.
-    spreads[1].max(1e-3)
+    middle([0, 1, 2].map(spread)).unwrap_or_default().max(1e-3)
 }
 
 fn told(nothing: &Tried, best: Option<&Tried>, same: &[Tried], family: &[&str]) -> Mistaken {

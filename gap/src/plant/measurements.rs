@@ -3,7 +3,7 @@
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
-use super::text::{Columns, number, quoted};
+use crate::io::{Columns, number, quoted};
 use crate::measurement::{
     FROM_NAMES, Kind, Measurements, NORMAL_NAMES, PIXEL_NAMES, Row, SIGMA_PREFIX, SIM_PREFIX,
     TILT_NAMES, WRENCH_NAMES,
@@ -16,7 +16,7 @@ use crate::observe::{Aim, Seen, View};
 /// Columns that no row uses (directions, temperature, time, pose, marker, session, payload, standard
 /// deviations) are left out.
 pub fn csv(arm: &Arm, data: &Measurements, comments: &[String]) -> String {
-    let mut columns: Columns<'_, &Row> = Columns::new();
+    let mut columns: Columns<'_, &Row> = Columns::default();
     let all = |has: fn(&Row) -> bool| data.rows.iter().all(has);
     if all(|r| r.pose.is_some()) {
         columns.add("pose", |r| quoted(r.pose.as_deref()));

@@ -27,7 +27,6 @@ mod observe;
 mod reading;
 mod reality;
 mod seated;
-mod text;
 mod transform;
 mod truth;
 
@@ -36,13 +35,13 @@ pub mod motion;
 
 use stiffarm_kernels::generic::Arm;
 
+pub use crate::io::{number, quoted};
 pub use campaign::{Campaign, Instrument, Scatter};
 pub use laws::{effects, has_law};
 pub use measurements::csv;
 pub use noise::Noise;
 pub use notation::TruthError;
 pub use observe::Frames;
-pub use text::{number, quoted};
 pub use truth::Truth;
 
 use crate::effects::Known;

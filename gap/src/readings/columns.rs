@@ -2,7 +2,8 @@
 
 use super::map::Map;
 use super::names::{self, Meaning};
-use super::sheet::{Table, is_none};
+use super::sheet::Table;
+use crate::io::cell::is_none;
 use crate::io::columns::Header;
 use crate::io::{Convention, Dimension, Mistakes, ReadError, Unit};
 use crate::measurement::{Role, SIM_PREFIX};
@@ -69,10 +70,8 @@ impl Columns {
         for (index, found) in assigned.into_iter().enumerate() {
             let mut column = Column::new(table, index);
             let meaning = found.and_then(|(ours, theirs)| {
-                if let Some(theirs) = theirs {
-                    column.unit = theirs.unit.clone().or(column.unit.take());
-                    (column.factor, column.offset) = (theirs.factor, theirs.offset);
-                }
+                column.unit = theirs.unit.or(column.unit.take());
+                (column.factor, column.offset) = (theirs.factor, theirs.offset);
                 names::meaning(&ours)
             });
             match meaning {

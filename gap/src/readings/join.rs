@@ -8,7 +8,8 @@ use super::clock::Clock;
 use super::columns::{Column, dimension};
 use super::counted;
 use super::names::{self, Meaning};
-use super::sheet::{Row, Seen, Table, is_none};
+use super::sheet::{Row, Seen, Table};
+use crate::io::cell::is_none;
 use crate::io::{Fault, Mistake, Mistakes, ReadError, Unit};
 
 /// Which rows belong together.
@@ -122,20 +123,14 @@ pub(super) fn join<'t>(
     let meaning = |name: &String| names::meaning(names::split(name).0);
     let known: Vec<Option<Meaning>> = ours.names.iter().map(meaning).collect();
     let (mut mistakes, mut said) = (Mistakes::default(), Vec::new());
-    let keys =
-        match by {
-            By::Row => None,
-            By::Time(_) => Some([&ours, other].map(|table| {
-                let is = |name: &String| meaning(name) == Some(Meaning::Ours("time".to_owned()));
-                at(table, "time", is)
-            })),
-            By::Column(name) => Some([&ours, other].map(|table| {
-                at(table, name, |found| found == name || names::split(found).0 == name)
-            })),
-        };
-    let keys = match keys {
-        Some([mine, theirs]) => Some((mine?, theirs?)),
-        None => None,
+    let is_time = |name: &String| meaning(name) == Some(Meaning::Ours("time".to_owned()));
+    let keys = match by {
+        By::Row => None,
+        By::Time(_) => Some((at(&ours, "time", is_time)?, at(other, "time", is_time)?)),
+        By::Column(name) => {
+            let is = |found: &String| found == name || names::split(found).0 == name;
+            Some((at(&ours, name, is)?, at(other, name, is)?))
+        }
     };
     let mut taken: Vec<usize> = Vec::new();
     for (k, name) in other.names.iter().enumerate() {
@@ -156,9 +151,6 @@ pub(super) fn join<'t>(
         .map(|((mine, theirs), shift)| (timing(&ours, mine, 0.0), timing(other, theirs, shift)));
     let (mut count, mut times, mut cells) = (0, Vec::new(), HashMap::new());
     let read = other.each(|row| {
-        if row.cells.iter().all(|cell| cell.is_empty()) {
-            return;
-        }
         match (keys, &timed) {
             (Some((_, theirs)), Some((_, time))) => match seconds(other, row, time) {
                 Ok(time) if times.last().is_none_or(|last| *last <= time) => times.push(time),
@@ -203,9 +195,6 @@ pub(super) fn join<'t>(
     said.extend(met);
     let (mut kept, mut number) = (Kept::default(), 0);
     let read = other.each(|row| {
-        if row.cells.iter().all(|cell| cell.is_empty()) {
-            return;
-        }
         if wanted.get(number) == Some(&true) {
             kept.push(number, taken.iter().map(|k| other.text(row, *k)));
         }
@@ -248,9 +237,6 @@ impl Join<'_> {
         let mut wanted = vec![false; self.count];
         let mut ends = [f64::INFINITY, f64::NEG_INFINITY];
         let read = ours.each(|row| {
-            if row.cells.iter().all(|cell| cell.is_empty()) {
-                return;
-            }
             if let Key::Time(mine, _) = &self.key
                 && let Ok(time) = seconds(ours, row, mine)
             {

@@ -6,6 +6,7 @@ use super::clock::Clock;
 use super::file::Text;
 use super::join::Join;
 use super::{Map, names};
+use crate::io::cell::{Decimals, is_none};
 use crate::io::table::{Record, Separator, commented};
 use crate::io::{Column, Convention, Fault, Mistake, Mistakes, ReadError, Unit};
 
@@ -15,11 +16,7 @@ pub(super) struct Table<'t> {
     pub file: &'t str,
     text: &'t Text<'t>,
     separator: Separator,
-    /// Whether a comma may begin decimals, and whether it does.
-    may_comma: bool,
-    comma: bool,
-    /// Whether the map says so.
-    is_told: bool,
+    decimals: Decimals,
     /// How a comment says that orientations are written.
     pub orientation: Option<Convention>,
     /// Another table, whose columns stand behind these.
@@ -70,19 +67,15 @@ impl<'t> Table<'t> {
         let mut table = table.map_err(|mistake| mistake.of(file))?;
         let (mut seen, mut mistakes) =
             (vec![Seen::default(); table.names.len()], Mistakes::default());
-        let (mut comma, mut empty) = (false, 0);
+        let mut comma = false;
         let wide = table.names.iter().rposition(|name| !name.is_empty()).map_or(0, |last| last + 1);
         let looked = table.each(|row| {
-            if row.cells.iter().all(|cell| cell.is_empty()) {
-                empty += 1;
-                return;
-            }
             let surplus = row.cells.get(table.names.len()..).unwrap_or_default();
             if row.cells.len() < wide || surplus.iter().any(|cell| !cell.is_empty()) {
                 mistakes.add(Fault::ragged(row.cells.len(), table.names.len()).at(row.line, None));
             }
             for (seen, cell) in seen.iter_mut().zip(row.cells).filter(|(_, c)| !is_none(c)) {
-                let number = number(cell, table.may_comma);
+                let number = table.decimals.found(cell);
                 comma |= number.is_some() && cell.contains(',');
                 seen.has_numbers |= number.is_some();
                 seen.has_words |= number.is_none();
@@ -90,12 +83,12 @@ impl<'t> Table<'t> {
                 seen.least = number.map_or(seen.least, |number| seen.least.min(number));
             }
         });
-        mistakes.extend(looked.err());
+        let empty = looked.map_err(|mistake| mistakes.add(mistake)).unwrap_or(0);
         mistakes.check(file)?;
         table.seen = seen;
-        table.comma = map.decimal.map_or(comma, |decimal| decimal == ',');
+        table.decimals.comma = map.decimal.map_or(comma, |decimal| decimal == ',');
         let words = table.separator.words();
-        said.extend(table.comma.then(|| "a comma begins the decimals".to_owned()));
+        said.extend(table.decimals.comma.then(|| "a comma begins the decimals".to_owned()));
         said.extend((words != "commas").then(|| format!("cells are separated by {words}")));
         said.append(&mut table.said);
         said.extend((empty > 0).then(|| format!("{empty} empty rows are left out")));
@@ -106,7 +99,7 @@ impl<'t> Table<'t> {
     fn headed(file: &'t str, text: &'t Text<'t>, map: &Map) -> Result<Table<'t>, Mistake> {
         let mut records = text.records(None)?;
         let separator = records.separator();
-        let may_comma = separator != Separator::Byte(b',') || map.decimal == Some(',');
+        let decimals = Decimals::of(separator, map);
         let mut rows: Vec<Owned> = Vec::new();
         let (mut is_body, mut given) = (false, None);
         let most = map.header.unwrap_or(MOST_ABOVE);
@@ -117,7 +110,7 @@ impl<'t> Table<'t> {
             let row = Owned::of(record)?;
             is_body = match map.header {
                 Some(_) => given.is_some(),
-                None => row.is_of_numbers(may_comma),
+                None => row.is_of_numbers(decimals),
             };
             if map.header == Some(row.line) && !row.is_blank() {
                 given = Some(rows.len());
@@ -130,10 +123,7 @@ impl<'t> Table<'t> {
             last(&|row| row.words() >= 2 && !row.are_units()).or_else(|| last(&|r| r.words() >= 2))
         };
         let at = match map.header {
-            Some(line) => given.ok_or_else(|| {
-                let expected = "a row of names there, as the map says";
-                Fault::new("no header", expected, "").at(line, None)
-            }),
+            Some(line) => given.ok_or_else(|| Map::no_header(line)),
             None => found().ok_or_else(|| {
                 let help = "give its line in the map, `header = 3`";
                 Mistake::from(Fault::new("no header", "a row of names above rows of numbers", help))
@@ -159,9 +149,7 @@ impl<'t> Table<'t> {
             file,
             text,
             separator,
-            may_comma,
-            comma: false,
-            is_told: map.decimal == Some(','),
+            decimals,
             orientation,
             join: None,
             line: rows[at].line,
@@ -187,25 +175,26 @@ impl<'t> Table<'t> {
         Table { names, seen, units, said, join: Some(join), ..self }
     }
 
-    /// Goes through the rows below the header.
+    /// Goes through the rows below the header that hold anything, and counts the others.
     ///
     /// # Errors
     /// What nothing can be read after.
-    pub(super) fn each(&self, mut take: impl FnMut(&Row<'_>)) -> Result<(), Mistake> {
+    pub(super) fn each(&self, mut take: impl FnMut(&Row<'_>)) -> Result<usize, Mistake> {
         let mut records = self.text.records(Some(self.separator))?;
-        let mut rows = 0;
+        let (mut rows, mut empty) = (0, 0);
         while let Some(record) = records.read()? {
             if record.line <= self.above {
                 continue;
             }
             let (line, mut cells) = (record.line, record.texts()?);
+            if cells.iter().all(|cell| cell.is_empty()) {
+                empty += 1;
+                continue;
+            }
             let Some(join) = &self.join else {
                 take(&Row { line, cells: &cells });
                 continue;
             };
-            if cells.iter().all(|cell| cell.is_empty()) {
-                continue;
-            }
             let met = join.meets(self, rows, &Row { line, cells: &cells })?;
             rows += 1;
             let Some(beside) = met.map(|met| join.cells(&met)) else { continue };
@@ -213,27 +202,18 @@ impl<'t> Table<'t> {
             cells.extend(beside.iter().map(AsRef::<str>::as_ref));
             take(&Row { line, cells: &cells });
         }
-        Ok(())
+        Ok(empty)
     }
 
     /// A cell as it stands, its decimals behind a point if it is a number.
     pub(super) fn text<'c>(&self, row: &Row<'c>, column: usize) -> Cow<'c, str> {
-        let text = row.cells.get(column).copied().unwrap_or_default();
-        if !self.has_comma(column) {
-            return text.into();
-        }
-        let is_number = number(text, self.may_comma).is_some();
-        let is_grouped = text.contains('.') && is_grouped(text);
-        match (text.contains(','), is_grouped && (self.is_told || text.contains(','))) {
-            (_, true) => Cow::Owned(text.replace('.', "").replace(',', ".")),
-            (true, false) if is_number => Cow::Owned(text.replace(',', ".")),
-            _ => text.into(),
-        }
+        self.decimals_of(column).plain(row.cells.get(column).copied().unwrap_or_default())
     }
 
-    /// Whether a comma begins the decimals of a column. A table that was joined has points.
-    fn has_comma(&self, column: usize) -> bool {
-        self.comma && column < self.names.len() - self.join.as_ref().map_or(0, |j| j.columns.len())
+    /// What begins the decimals of a column. A table that was joined has points.
+    fn decimals_of(&self, column: usize) -> Decimals {
+        let own = self.names.len() - self.join.as_ref().map_or(0, |join| join.columns.len());
+        if column < own { self.decimals } else { Decimals::default() }
     }
 
     /// A column as messages name it.
@@ -246,23 +226,9 @@ impl<'t> Table<'t> {
     /// # Errors
     /// What is no number, or may be two: `1.100` where a comma begins the decimals.
     pub(super) fn number(&self, row: &Row<'_>, column: usize) -> Result<Option<f64>, Mistake> {
-        let text = self.text(row, column);
-        if is_none(&text) {
-            return Ok(None);
-        }
-        let wrong = |found: &str, help: &str| {
-            let found = format!("`{}`{found}", row.cells[column]);
-            Fault::new(found, "a number", help).at(row.line, Some(self.column(column)))
-        };
-        if self.has_comma(column) && matches!(&text, Cow::Borrowed(text) if text.contains('.')) {
-            let help = match is_grouped(&text) {
-                true => "write 1100 or 1,1; if it is a thousand, say `decimal = \",\"` in a map",
-                false => "write 1,1",
-            };
-            return Err(wrong(" where a comma begins the decimals", help));
-        }
-        let number = text.parse().ok().filter(|x: &f64| x.is_finite());
-        number.map(Some).ok_or_else(|| wrong("", ""))
+        let number =
+            self.decimals_of(column).number(row.cells.get(column).copied().unwrap_or_default());
+        number.map_err(|fault| fault.at(row.line, Some(self.column(column))))
     }
 }
 
@@ -293,8 +259,8 @@ impl Owned {
         self.cells.iter().filter(|cell| !cell.is_empty()).count()
     }
 
-    fn is_of_numbers(&self, may_comma: bool) -> bool {
-        let is = |cell: &&String| number(cell, may_comma).is_some() || Clock::of(cell).is_some();
+    fn is_of_numbers(&self, decimals: Decimals) -> bool {
+        let is = |cell: &&String| decimals.found(cell).is_some() || Clock::of(cell).is_some();
         let numbers = self.cells.iter().filter(is).count();
         numbers >= 2 && 2 * numbers >= self.words()
     }
@@ -323,32 +289,4 @@ fn grouped(cells: &[String], above: &Owned) -> Vec<String> {
         if needs && !group.is_empty() { joined } else { name.clone() }
     });
     each.collect()
-}
-
-/// Whether points stand before each three digits of a number: `1.200`, `-1.200.300,5`.
-fn is_grouped(text: &str) -> bool {
-    let text = text.strip_prefix(['+', '-']).unwrap_or(text);
-    let (whole, decimals) = text.split_once(',').unwrap_or((text, "0"));
-    let are_digits = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
-    let mut groups = whole.split('.');
-    let first = groups.next().is_some_and(|group| are_digits(group) && group.len() <= 3);
-    first && are_digits(decimals) && groups.all(|group| are_digits(group) && group.len() == 3)
-}
-
-/// A finite number, with a point before its decimals, or a comma where that may be.
-fn number(cell: &str, may_comma: bool) -> Option<f64> {
-    let number = match cell.contains(',') {
-        false => cell.parse().ok(),
-        true if !may_comma => None,
-        true if cell.contains('.') => {
-            is_grouped(cell).then(|| cell.replace('.', "").replace(',', ".").parse().ok()).flatten()
-        }
-        true => cell.replacen(',', ".", 1).parse().ok(),
-    };
-    number.filter(|x: &f64| x.is_finite())
-}
-
-/// Whether a cell says that it holds nothing.
-pub(super) fn is_none(text: &str) -> bool {
-    ["", "-", "--", "na", "n/a", "nan"].iter().any(|none| none.eq_ignore_ascii_case(text))
 }

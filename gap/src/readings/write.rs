@@ -9,9 +9,10 @@ use nalgebra::Vector3;
 use super::clock::{Clock, DAY, days};
 use super::columns::{Column, Columns, dimension};
 use super::map::Map;
-use super::sheet::{Row, Table, is_none};
+use super::sheet::{Row, Table};
 use super::turn::Turn;
 use super::{Stopped, counted, names};
+use crate::io::cell::is_none;
 use crate::io::{Convention, Dimension, Fault, Mistake, Mistakes, ReadError, Unit, did_you_mean};
 use crate::measurement::{MOST_RADIANS, POSE_NAMES, WRENCH_NAMES, nearest_name};
 
@@ -52,9 +53,6 @@ pub(super) fn write(
     let (mut mistakes, mut rows) = (Mistakes::default(), 0);
     let mut wrote = writer.write_record(outputs.iter().map(|o| &o.header));
     let read = table.each(|row| {
-        if row.cells.iter().all(|cell| cell.is_empty()) {
-            return;
-        }
         for point in 0..columns.points.len().max(1) {
             // A beam that was cut leaves the cells of its point empty.
             let axes = columns.points.get(point).map(|(_, axes)| axes);

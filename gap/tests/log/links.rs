@@ -1,32 +1,14 @@
 //! The base parameters of the rigid links, with intervals and covariance: against those of the arm that moved.
 
-use std::collections::BTreeMap;
-
-use stiffarm_gap::log::{Log, LogOptions, Signal, TorqueSide, diagnose};
+use stiffarm_gap::log::{Log, LogOptions, TorqueSide, diagnose};
 use stiffarm_gap::report::log::RigidLinks;
-use stiffarm_gap::rng::{Rng, Stream};
 
-use super::plant::{Path, arm, log, noise, rigid};
-
-const STEP: f64 = 0.01;
-const COUNT: usize = 6000;
+use super::plant::{Recorder, arm};
 
 /// Two links with friction in the first joint.
 fn recorded(seed: u64) -> Log {
-    let path = Path::new(seed, 0.6);
-    let mut rng = Rng::new(seed, Stream::Noise);
-    let noises = [(); 2].map(|()| noise(&mut rng, COUNT, STEP, 0.05, 0.5));
-    let (mut q, mut torque) = (vec![Vec::new(); 2], vec![Vec::new(); 2]);
-    for (k, noises) in noises[0].iter().zip(&noises[1]).map(|(a, b)| [a, b]).enumerate() {
-        let [at, rates, accelerations] = path.at(STEP * k as f64);
-        let asks = rigid(at, rates, accelerations);
-        let friction = [6.0 * rates[0].signum(), 0.0];
-        for j in 0..2 {
-            q[j].push(at[j] + 1e-6 * rng.normal());
-            torque[j].push(asks[j] + friction[j] + noises[j]);
-        }
-    }
-    log(STEP, BTreeMap::from([(Signal::Q, q), (Signal::Torque, torque)]))
+    Recorder::new(seed, 6000, 0.5)
+        .torques(|now| (now.rigid_and([6.0 * now.v[0].signum(), 0.0]), [0.0; 2]))
 }
 
 /// As the file is: its masses are a third of the arm's, and what is fitted knows nothing of them.

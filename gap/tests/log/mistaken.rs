@@ -1,41 +1,26 @@
 //! Logs with a wrong file or a wrong reading, and what is said of them.
 
-use std::collections::BTreeMap;
-
 use stiffarm_gap::log::report::LogDiagnosis;
 use stiffarm_gap::log::{Log, LogOptions, Refused, Signal, TorqueSide, diagnose};
-use stiffarm_gap::rng::{Rng, Stream};
 use stiffarm_kernels::generic::Arm;
 
-use super::plant::{Path, arm, heavier, log, noise, rigid};
-
-const STEP: f64 = 0.01;
-const COUNT: usize = 6000;
+use super::plant::{Recorder, arm, heavier, rigid};
 
 /// Coulomb and viscous friction of the two joints.
 const FRICTION: [[f64; 2]; 2] = [[6.0, 3.0], [1.5, 2.5]];
 
 /// A log of the plant with friction: torques told `late`, of what is held, joint values `off` by so much of the torque.
 fn recorded(seed: u64, late: f64, held: f64, off: [f64; 2]) -> Log {
-    let path = Path::new(seed, 0.6);
-    let mut rng = Rng::new(seed, Stream::Noise);
-    let noises = [(); 2].map(|()| noise(&mut rng, COUNT, STEP, 0.05, 0.1));
-    let (mut q, mut torque) = (vec![Vec::new(); 2], vec![Vec::new(); 2]);
-    for (k, noises) in noises[0].iter().zip(&noises[1]).map(|(a, b)| [a, b]).enumerate() {
-        let t = STEP * k as f64;
+    let recorder = Recorder::new(seed, 6000, 0.1);
+    recorder.torques(|now| {
         let asks = |[q, v, a]: [[f64; 2]; 3]| {
             if held > 0.0 { heavier(held, q, v, a) } else { rigid(q, v, a) }
         };
-        let (now, then) = (path.at(t), path.at(t - late));
-        let (loads, told) = (asks(now), asks(then));
-        for j in 0..2 {
-            let [coulomb, viscous] = FRICTION[j];
-            let v = then[1][j];
-            q[j].push(now[0][j] + off[j] * loads[j] + 1e-6 * rng.normal());
-            torque[j].push(told[j] + coulomb * v.signum() + viscous * v + noises[j]);
-        }
-    }
-    log(STEP, BTreeMap::from([(Signal::Q, q), (Signal::Torque, torque)]))
+        let then = recorder.path.at(now.t - late);
+        let (loads, told, v) = (asks([now.q, now.v, now.a]), asks(then), then[1]);
+        let drives = |j: usize| told[j] + FRICTION[j][0] * v[j].signum() + FRICTION[j][1] * v[j];
+        ([0, 1].map(drives), [0, 1].map(|j| off[j] * loads[j]))
+    })
 }
 
 /// An arm whose file has the friction times so much.

@@ -1,17 +1,12 @@
 //! An effect of a program's own, asked for beside those of the catalogue.
 
 use std::cell::Cell;
-use std::collections::BTreeMap;
 
 use stiffarm_gap::effects::{Facts, InMotion, Law, Laws, Parameter, Quantity, Spot};
 use stiffarm_gap::log::scene::{Column, Scene};
-use stiffarm_gap::log::{Log, LogOptions, Refused, Signal, diagnose, diagnosed_with};
-use stiffarm_gap::rng::{Rng, Stream};
+use stiffarm_gap::log::{Log, LogOptions, Refused, diagnose, diagnosed_with};
 
-use super::plant::{Path, arm, log, noise, rigid};
-
-const STEP: f64 = 0.01;
-const COUNT: usize = 8000;
+use super::plant::{Recorder, arm};
 
 /// What the brake of joint 2 holds by, N·m/rad.
 const BRAKE: f64 = 6.0;
@@ -38,19 +33,10 @@ impl InMotion for WideningBrake {
 }
 
 fn recorded(seed: u64) -> Log {
-    let path = Path::new(seed, 0.6);
-    let mut rng = Rng::new(seed, Stream::Noise);
-    let [first, second] = [(); 2].map(|()| noise(&mut rng, COUNT, STEP, 0.05, 0.1));
-    let (mut q, mut torque) = (vec![Vec::new(); 2], vec![Vec::new(); 2]);
-    for (k, noise) in first.into_iter().zip(second).map(|(a, b)| [a, b]).enumerate() {
-        let [at, v, a] = path.at(STEP * k as f64);
-        let brake = [0.0, BRAKE * at[1].abs() * v[1].signum()];
-        for j in 0..2 {
-            q[j].push(at[j] + 1e-6 * rng.normal());
-            torque[j].push(rigid(at, v, a)[j] + brake[j] + noise[j]);
-        }
-    }
-    log(STEP, BTreeMap::from([(Signal::Q, q), (Signal::Torque, torque)]))
+    Recorder::new(seed, 8000, 0.1).torques(|now| {
+        let brake = BRAKE * now.q[1].abs() * now.v[1].signum();
+        (now.rigid_and([0.0, brake]), [0.0; 2])
+    })
 }
 
 fn options() -> LogOptions {

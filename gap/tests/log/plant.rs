@@ -6,7 +6,8 @@ use std::collections::BTreeMap;
 
 use nalgebra::{Isometry3, Matrix3, Vector3};
 use stiffarm_gap::log::read::Clock;
-use stiffarm_gap::log::{Log, Run, Signal, TorqueSide};
+use stiffarm_gap::log::report::{Finding, LogDiagnosis};
+use stiffarm_gap::log::{Log, LogOptions, Run, Signal, TorqueSide, diagnose};
 use stiffarm_gap::rng::{Rng, Stream};
 use stiffarm_kernels::generic::{Arm, Drive, Joint};
 use stiffarm_kernels::{Convention, Motion};
@@ -115,6 +116,92 @@ pub fn noise(rng: &mut Rng, count: usize, step: f64, time: f64, size: f64) -> Ve
         x
     };
     (0..count).map(|_| next()).collect()
+}
+
+/// An instant of a motion.
+pub struct Now {
+    pub t: f64,
+    pub q: [f64; 2],
+    pub v: [f64; 2],
+    pub a: [f64; 2],
+}
+
+impl Now {
+    /// What the rigid links ask of the drives, and something beside them.
+    pub fn rigid_and(&self, more: [f64; 2]) -> [f64; 2] {
+        let links = rigid(self.q, self.v, self.a);
+        [links[0] + more[0], links[1] + more[1]]
+    }
+
+    /// What a body of that mass at the tool asks of the drives.
+    pub fn body(&self, mass: f64) -> [f64; 2] {
+        let held = heavier(mass, self.q, self.v, self.a);
+        let bare = rigid(self.q, self.v, self.a);
+        [held[0] - bare[0], held[1] - bare[1]]
+    }
+}
+
+/// How torques are recorded.
+pub struct Recorder {
+    /// Of the noise.
+    pub seed: u64,
+    pub path: Path,
+    /// Where the path begins, s.
+    pub from: f64,
+    pub step: f64,
+    pub count: usize,
+    /// Correlation time, s, and standard deviation, N·m, of what is added to the torques.
+    pub noise: [f64; 2],
+}
+
+impl Recorder {
+    /// A hundred samples a second, with noise of such a standard deviation.
+    pub fn new(seed: u64, count: usize, noise: f64) -> Recorder {
+        let path = Path::new(seed, 0.6);
+        Recorder { seed, path, from: 0.0, step: 0.01, count, noise: [0.05, noise] }
+    }
+
+    /// A log of the torques that `drives` gives, and of encoders that stand so far off the links as it says.
+    pub fn torques(&self, mut drives: impl FnMut(&Now) -> ([f64; 2], [f64; 2])) -> Log {
+        let mut rng = Rng::new(self.seed, Stream::Noise);
+        let [time, size] = self.noise;
+        let noises = [(); 2].map(|()| noise(&mut rng, self.count, self.step, time, size));
+        recorded(self.step, self.count, Signal::Torque, |k, t| {
+            let t = self.from + t;
+            let [q, v, a] = self.path.at(t);
+            let (torque, off) = drives(&Now { t, q, v, a });
+            [0, 1].map(|j| [q[j] + off[j] + 1e-6 * rng.normal(), torque[j] + noises[j][k]])
+        })
+    }
+}
+
+/// A log of samples: of each joint its value and what stands `beside` it.
+pub fn recorded(
+    step: f64,
+    count: usize,
+    beside: Signal,
+    mut sample: impl FnMut(usize, f64) -> [[f64; 2]; 2],
+) -> Log {
+    let [mut q, mut other] = [(); 2].map(|()| vec![Vec::new(); 2]);
+    for k in 0..count {
+        for (j, [value, beside]) in sample(k, step * k as f64).into_iter().enumerate() {
+            q[j].push(value);
+            other[j].push(beside);
+        }
+    }
+    log(step, BTreeMap::from([(Signal::Q, q), (beside, other)]))
+}
+
+/// What is said of a log of this arm below so many hertz.
+pub fn diagnosed(log: &Log, band: f64) -> LogDiagnosis {
+    let options = LogOptions { band: Some(band), ..LogOptions::default() };
+    diagnose(&arm(), log, &options).expect("a diagnosis")
+}
+
+/// An effect at a place, which is named.
+pub fn finding<'d>(found: &'d LogDiagnosis, effect: &str, place: &str) -> &'d Finding {
+    let named = found.findings.iter().find(|f| f.is(effect, place));
+    named.unwrap_or_else(|| panic!("{effect} at {place}: {found:#?}"))
 }
 
 /// A log of one run at even steps.

@@ -1,26 +1,12 @@
 //! One effect after the other, planted by its law, and what is said of it.
 
-use std::collections::BTreeMap;
-
 use nalgebra::Vector3;
 use stiffarm_gap::log::report::LogDiagnosis;
 use stiffarm_gap::log::{Log, LogOptions, Run, Signal, diagnose};
 use stiffarm_gap::measurement::Body;
-use stiffarm_gap::rng::{Rng, Stream};
 use stiffarm_kernels::generic::Arm;
 
-use super::plant::{Path, arm, gravity, heavier, log, noise, rigid};
-
-const STEP: f64 = 0.01;
-const COUNT: usize = 8000;
-
-/// Time, joint values, rates and accelerations.
-struct Now {
-    t: f64,
-    q: [f64; 2],
-    v: [f64; 2],
-    a: [f64; 2],
-}
+use super::plant::{self, Now, Path, Recorder, arm, finding, gravity, rigid};
 
 /// Torques of the rigid links and of what is planted beside them.
 fn recorded(seed: u64, mut more: impl FnMut(&Now) -> [f64; 2]) -> Log {
@@ -29,34 +15,19 @@ fn recorded(seed: u64, mut more: impl FnMut(&Now) -> [f64; 2]) -> Log {
 
 /// The same; encoders stand so far off the links.
 fn recorded_off(seed: u64, mut more: impl FnMut(&Now) -> ([f64; 2], [f64; 2])) -> Log {
-    let path = Path::new(seed, 0.6);
-    let mut rng = Rng::new(seed, Stream::Noise);
-    let [first, second] = [(); 2].map(|()| noise(&mut rng, COUNT, STEP, 0.05, 0.1));
-    let (mut q, mut torque) = (vec![Vec::new(); 2], vec![Vec::new(); 2]);
-    for (k, noise) in first.into_iter().zip(second).map(|(a, b)| [a, b]).enumerate() {
-        let t = STEP * k as f64;
-        let [at, v, a] = path.at(t);
-        let asks = rigid(at, v, a);
-        let (more, off) = more(&Now { t, q: at, v, a });
-        for j in 0..2 {
-            q[j].push(at[j] + off[j] + 1e-6 * rng.normal());
-            torque[j].push(asks[j] + more[j] + noise[j]);
-        }
-    }
-    log(STEP, BTreeMap::from([(Signal::Q, q), (Signal::Torque, torque)]))
+    Recorder::new(seed, 8000, 0.1).torques(|now| {
+        let (more, off) = more(now);
+        (now.rigid_and(more), off)
+    })
 }
 
 fn diagnosed(log: &Log) -> LogDiagnosis {
-    let options = LogOptions { band: Some(10.0), ..LogOptions::default() };
-    diagnose(&arm(), log, &options).unwrap()
+    plant::diagnosed(log, 10.0)
 }
 
-/// The numbers of an effect at a place, which is named: as a finding, or as what would do instead.
+/// The numbers of an effect at a place, which is named.
 fn numbers(found: &LogDiagnosis, effect: &str, place: &str) -> Vec<f64> {
-    let is = |f: &&stiffarm_gap::log::report::Finding| f.effect == effect && f.place == place;
-    let finding = found.findings.iter().find(is);
-    let finding = finding.unwrap_or_else(|| panic!("{effect} at {place}: {found:#?}"));
-    finding.parameters.iter().map(|p| p.value).collect()
+    finding(found, effect, place).parameters.iter().map(|p| p.value).collect()
 }
 
 fn close(found: f64, expected: f64, part: f64) {
@@ -178,10 +149,7 @@ fn a_gear_that_gives_is_named_with_its_compliance() {
 #[test]
 fn what_a_run_carries_is_named_with_its_mass() {
     let mut both = recorded(32, |_| [0.0; 2]);
-    let mut second = recorded(33, |now| {
-        let (is, bare) = (heavier(0.8, now.q, now.v, now.a), rigid(now.q, now.v, now.a));
-        [is[0] - bare[0], is[1] - bare[1]]
-    });
+    let mut second = recorded(33, |now| now.body(0.8));
     second.runs[0].payload = Some("disc".to_owned());
     both.runs.extend(second.runs);
     close(numbers(&diagnosed(&both), "payload", "the tool in run 2")[0], 0.8, 0.1);
@@ -208,10 +176,7 @@ fn friction_that_builds_up_is_named_with_its_distance() {
 
 #[test]
 fn a_link_that_is_heavier_than_the_file_says_is_named() {
-    let log = recorded(41, |now| {
-        let (is, file) = (heavier(0.5, now.q, now.v, now.a), rigid(now.q, now.v, now.a));
-        [is[0] - file[0], is[1] - file[1]]
-    });
+    let log = recorded(41, |now| now.body(0.5));
     let options = LogOptions { band: Some(10.0), known_links: true, ..LogOptions::default() };
     let found = diagnose(&arm(), &log, &options).unwrap();
     assert_eq!((&*found.findings[0].effect, &*found.findings[0].place), ("link_inertia", "link 2"));
@@ -231,9 +196,8 @@ fn a_known_load_tells_the_scale_of_all_torques() {
     };
     let mut both = scaled(recorded(51, friction));
     let mut second = scaled(recorded(52, |now| {
-        let (is, bare) = (heavier(2.0, now.q, now.v, now.a), rigid(now.q, now.v, now.a));
-        let brakes = friction(now);
-        [is[0] - bare[0] + brakes[0], is[1] - bare[1] + brakes[1]]
+        let (body, brakes) = (now.body(2.0), friction(now));
+        [body[0] + brakes[0], body[1] + brakes[1]]
     }));
     second.runs[0].payload = Some("two".to_owned());
     both.runs.extend(second.runs);

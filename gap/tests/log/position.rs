@@ -1,15 +1,11 @@
 //! A servo of the plant's joints: late, soft, and with play.
 
-use std::collections::BTreeMap;
-
 use stiffarm_gap::log::report::LogDiagnosis;
-use stiffarm_gap::log::{Log, LogOptions, Signal, diagnose};
+use stiffarm_gap::log::{Log, Signal};
 use stiffarm_gap::rng::{Rng, Stream};
 
-use super::plant::{Path, arm, gravity, log};
+use super::plant::{self, Path, finding, gravity};
 
-const STEP: f64 = 0.02;
-const COUNT: usize = 6000;
 const DELAY: f64 = 0.09;
 const COMPLIANCE: f64 = 2e-3;
 const HALF_WIDTH: f64 = 0.01;
@@ -18,10 +14,8 @@ const HALF_WIDTH: f64 = 0.01;
 fn recorded() -> Log {
     let path = Path::new(4, 0.25);
     let mut rng = Rng::new(4, Stream::Noise);
-    let (mut q, mut command) = (vec![Vec::new(); 2], vec![Vec::new(); 2]);
     let mut last = f64::NAN;
-    for k in 0..COUNT {
-        let t = STEP * k as f64;
+    plant::recorded(0.02, 6000, Signal::QCmd, |_, t| {
         let [late, ..] = path.at(t - DELAY);
         // Weights where the arm is: twice through the droop, which contracts by a hundredth.
         let droop = |q: [f64; 2]| [late[0] - COMPLIANCE * gravity(q)[0], late[1]];
@@ -29,17 +23,13 @@ fn recorded() -> Log {
         // Play: the joint stands until its tooth is met.
         let (low, high) = (at[1] - HALF_WIDTH, at[1] + HALF_WIDTH);
         last = if last.is_nan() { low } else { last.clamp(low, high) };
-        for (j, at) in [at[0], last].into_iter().enumerate() {
-            q[j].push(at + 1e-3 * rng.normal());
-            command[j].push(path.at(t)[0][j]);
-        }
-    }
-    log(STEP, BTreeMap::from([(Signal::Q, q), (Signal::QCmd, command)]))
+        let (stands, sent) = ([at[0], last], path.at(t)[0]);
+        [0, 1].map(|j| [stands[j] + 1e-3 * rng.normal(), sent[j]])
+    })
 }
 
 fn diagnosed(log: &Log) -> LogDiagnosis {
-    let options = LogOptions { band: Some(8.0), ..LogOptions::default() };
-    diagnose(&arm(), log, &options).unwrap()
+    plant::diagnosed(log, 8.0)
 }
 
 /// Whichever of both is turned, it is named; where it is the command, what is found stays as it is.
@@ -66,10 +56,6 @@ fn a_joint_that_moves_against_its_command_is_named() {
 #[test]
 fn delay_droop_and_play_are_told_apart() {
     let found = diagnosed(&recorded());
-    let value = |effect: &str, place: &str| {
-        let finding = found.findings.iter().find(|f| f.effect == effect && f.place == place);
-        finding.unwrap_or_else(|| panic!("{effect} at {place}: {found:#?}")).parameters[0].value
-    };
     assert_eq!(found.findings[0].effect, "latency", "{found:#?}");
     // What drags the joint through its play is late by a delay that was fitted alone, and has some milliseconds of the play
     // in it: at 0.5 rad/s a few thousandths of a radian, in the tenth of the time that reversals take.
@@ -78,7 +64,7 @@ fn delay_droop_and_play_are_told_apart() {
         ("servo_droop", "joint 1", COMPLIANCE, 0.02),
         ("backlash", "joint 2", 2.0 * HALF_WIDTH, 0.04),
     ] {
-        let value = value(effect, place);
+        let value = finding(&found, effect, place).parameters[0].value;
         assert!((value / expected - 1.0).abs() < part, "{effect}: {value}: {found:#?}");
     }
     // What else is told is of those reversals: the three leave next to nothing.

@@ -1,12 +1,10 @@
 //! How often something is said to be left where nothing is, and where something is that no effect explains.
 
-use std::collections::BTreeMap;
-
 use stiffarm_gap::log::report::LogDiagnosis;
 use stiffarm_gap::log::{Domain, Log, LogOptions, Signal, diagnose};
 use stiffarm_gap::rng::{Rng, Stream};
 
-use super::plant::{Path, arm, gravity, log, noise};
+use super::plant::{Path, arm, gravity, noise, recorded};
 
 const STEP: f64 = 0.04;
 const COUNT: usize = 1500;
@@ -19,7 +17,7 @@ const SEEDS: core::ops::Range<u64> = 30_000..30_100;
 
 /// Servos that follow their commands, and readings of them with noise of so much memory, s. Joint 1 droops, which
 /// spreads so many times as much as the noise.
-fn recorded(seed: u64, memory: f64, times: f64) -> Log {
+fn followed(seed: u64, memory: f64, times: f64) -> Log {
     let path = Path::new(seed, 0.4);
     let mut rng = Rng::new(seed, Stream::Noise);
     let noises = [(); 2].map(|()| noise(&mut rng, COUNT, STEP, memory, NOISE));
@@ -28,15 +26,10 @@ fn recorded(seed: u64, memory: f64, times: f64) -> Log {
     let mean = weights.iter().sum::<f64>() / COUNT as f64;
     let square = weights.iter().map(|x| (x - mean).powi(2)).sum::<f64>();
     let compliance = times * NOISE / (square / COUNT as f64).sqrt();
-    let (mut q, mut sent) = (vec![Vec::new(); 2], vec![Vec::new(); 2]);
-    for k in 0..COUNT {
-        for j in 0..2 {
-            sent[j].push(at[k][j]);
-            let droop = if j == 0 { compliance * weights[k] } else { 0.0 };
-            q[j].push(at[k][j] - droop + noises[j][k]);
-        }
-    }
-    log(STEP, BTreeMap::from([(Signal::Q, q), (Signal::QCmd, sent)]))
+    recorded(STEP, COUNT, Signal::QCmd, |k, _| {
+        let droop = [compliance * weights[k], 0.0];
+        [0, 1].map(|j| [at[k][j] - droop[j] + noises[j][k], at[k][j]])
+    })
 }
 
 /// Without the effect that droop is.
@@ -49,7 +42,7 @@ fn diagnosed(log: &Log, seed: u64) -> LogDiagnosis {
 
 fn told(memory: f64, times: f64) -> usize {
     let is_told =
-        |seed: &u64| diagnosed(&recorded(*seed, memory, times), *seed).unexplained.present;
+        |seed: &u64| diagnosed(&followed(*seed, memory, times), *seed).unexplained.present;
     SEEDS.filter(is_told).count()
 }
 
@@ -65,7 +58,7 @@ fn a_droop_that_nothing_explains_is_left_over() {
 #[test]
 fn a_zero_that_is_wrong_is_left_over() {
     let is_told = |seed: &u64| {
-        let mut log = recorded(*seed, 0.01, 0.0);
+        let mut log = followed(*seed, 0.01, 0.0);
         let q = log.runs[0].signals.get_mut(&Signal::Q).expect("positions");
         q[1].iter_mut().for_each(|q| *q += 0.5 * NOISE);
         let left = diagnosed(&log, *seed).unexplained.depends_on;
@@ -79,7 +72,7 @@ fn a_zero_that_is_wrong_is_left_over() {
 #[test]
 fn waves_that_nothing_explains_are_left_over() {
     let is_told = |seed: &u64| {
-        let mut log = recorded(*seed, 0.01, 0.0);
+        let mut log = followed(*seed, 0.01, 0.0);
         let q = log.runs[0].signals.get_mut(&Signal::Q).expect("positions");
         q[0].iter_mut().for_each(|q| *q += 0.5 * NOISE * 2.0_f64.sqrt() * (6.0 * *q).sin());
         let left = diagnosed(&log, *seed).unexplained.depends_on;

@@ -1,12 +1,9 @@
 //! How far a gap shrinks, and its interval, against what the same model makes of a log that it has not seen.
 
-use std::collections::BTreeMap;
-
 use stiffarm_gap::gap::percentile;
-use stiffarm_gap::log::{Log, LogOptions, Signal, diagnose, diagnosed};
-use stiffarm_gap::rng::{Rng, Stream};
+use stiffarm_gap::log::{Log, LogOptions, diagnose, diagnosed};
 
-use super::plant::{Path, arm, log, noise, rigid};
+use super::plant::{Path, Recorder, arm};
 
 const STEP: f64 = 0.02;
 const COUNT: usize = 2500;
@@ -17,18 +14,12 @@ const SEEDS: core::ops::Range<u64> = 700..740;
 /// Another stretch of one motion for each seed; the noise is as slow as the arm, so that a log has few blocks.
 fn recorded(seed: u64, friction: [f64; 2]) -> Log {
     let path = Path::new(31, 0.6);
-    let mut rng = Rng::new(seed, Stream::Noise);
-    let [first, second] = [(); 2].map(|()| noise(&mut rng, COUNT, STEP, 0.3, 1.0));
-    let (mut q, mut torque) = (vec![Vec::new(); 2], vec![Vec::new(); 2]);
-    for (k, noises) in first.into_iter().zip(second).enumerate() {
-        let [at, v, a] = path.at(STEP * (k + COUNT * seed as usize) as f64);
-        let links = rigid(at, v, a);
-        for (j, (brake, noise)) in friction.into_iter().zip(<[f64; 2]>::from(noises)).enumerate() {
-            q[j].push(at[j] + 1e-6 * rng.normal());
-            torque[j].push(links[j] + brake * v[j].signum() + noise);
-        }
-    }
-    log(STEP, BTreeMap::from([(Signal::Q, q), (Signal::Torque, torque)]))
+    let from = STEP * (COUNT * seed as usize) as f64;
+    let recorder = Recorder { seed, path, from, step: STEP, count: COUNT, noise: [0.3, 1.0] };
+    recorder.torques(|now| {
+        let brakes = [0, 1].map(|j| friction[j] * now.v[j].signum());
+        (now.rigid_and(brakes), [0.0; 2])
+    })
 }
 
 fn options() -> LogOptions {

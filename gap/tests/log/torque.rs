@@ -1,55 +1,29 @@
 //! Torques of the plant with friction.
 
-use std::collections::BTreeMap;
+use stiffarm_gap::log::{Log, Signal};
 
-use stiffarm_gap::log::report::{Finding, LogDiagnosis};
-use stiffarm_gap::log::{Log, LogOptions, Signal, diagnose};
-use stiffarm_gap::rng::{Rng, Stream};
-
-use super::plant::{Path, arm, log, noise, rigid};
-
-const STEP: f64 = 0.01;
-const COUNT: usize = 8000;
+use super::plant::{Recorder, diagnosed, finding};
 
 /// Friction of the two joints, Coulomb and viscous; torques times `scale`.
 fn recorded(seed: u64, friction: [[f64; 2]; 2], scale: f64) -> Log {
-    let path = Path::new(seed, 0.6);
-    let mut rng = Rng::new(seed, Stream::Noise);
-    let mut q = vec![Vec::new(); 2];
-    let noises = [(); 2].map(|()| noise(&mut rng, COUNT, STEP, 0.05, 0.3));
-    let noises = noises[0].iter().zip(&noises[1]).map(|(first, second)| [*first, *second]);
-    let mut torque = vec![Vec::new(); 2];
-    for (k, noises) in noises.enumerate() {
-        let [at, v, a] = path.at(STEP * k as f64);
-        let drives = rigid(at, v, a);
-        for (j, [coulomb, viscous]) in friction.into_iter().enumerate() {
-            q[j].push(at[j] + 1e-6 * rng.normal());
-            let friction = coulomb * v[j].signum() + viscous * v[j];
-            torque[j].push(scale * (drives[j] + friction + noises[j]));
-        }
-    }
-    log(STEP, BTreeMap::from([(Signal::Q, q), (Signal::Torque, torque)]))
-}
-
-fn diagnosed(log: &Log) -> LogDiagnosis {
-    let options = LogOptions { band: Some(8.0), ..LogOptions::default() };
-    diagnose(&arm(), log, &options).unwrap()
-}
-
-fn named<'d>(found: &'d LogDiagnosis, effect: &str, place: &str) -> &'d Finding {
-    let is = |f: &&Finding| f.effect == effect && f.place == place;
-    found.findings.iter().find(is).unwrap_or_else(|| panic!("{effect} at {place}: {found:#?}"))
+    let mut log = Recorder::new(seed, 8000, 0.3).torques(|now| {
+        let brake = |j: usize| friction[j][0] * now.v[j].signum() + friction[j][1] * now.v[j];
+        (now.rigid_and([0, 1].map(brake)), [0.0; 2])
+    });
+    let torques = log.runs[0].signals.get_mut(&Signal::Torque).expect("torques");
+    torques.iter_mut().flatten().for_each(|x| *x *= scale);
+    log
 }
 
 #[test]
 fn friction_is_found_where_it_is_with_its_numbers() {
-    let found = diagnosed(&recorded(1, [[6.0, 0.0], [1.5, 2.5]], 1.0));
+    let found = diagnosed(&recorded(1, [[6.0, 0.0], [1.5, 2.5]], 1.0), 8.0);
     for (effect, place, value) in [
         ("coulomb_friction", "joint 1", 6.0),
         ("coulomb_friction", "joint 2", 1.5),
         ("viscous_friction", "joint 2", 2.5),
     ] {
-        let finding = named(&found, effect, place);
+        let finding = finding(&found, effect, place);
         let parameter = &finding.parameters[0];
         let half = 0.5 * (parameter.ci95[1] - parameter.ci95[0]);
         // Intervals hold 95 %: twice as wide they hold what is true of all three here.
@@ -66,7 +40,7 @@ fn friction_is_found_where_it_is_with_its_numbers() {
 
 #[test]
 fn nothing_is_found_where_nothing_is() {
-    let found = diagnosed(&recorded(2, [[0.0; 2]; 2], 1.0));
+    let found = diagnosed(&recorded(2, [[0.0; 2]; 2], 1.0), 8.0);
     assert!(found.findings.is_empty(), "{found:#?}");
 }
 
@@ -75,8 +49,7 @@ fn nothing_is_found_where_nothing_is() {
 fn a_scale_of_all_torques_is_a_gauge() {
     let friction = [[6.0, 0.0], [1.5, 2.5]];
     let left = |scale: f64| -> Vec<f64> {
-        let options = LogOptions { band: Some(8.0), ..LogOptions::default() };
-        let found = diagnose(&arm(), &recorded(3, friction, scale), &options).unwrap();
+        let found = diagnosed(&recorded(3, friction, scale), 8.0);
         assert!(found.cannot_see.iter().any(|h| h.effect == "torque_scale"));
         found.gap.iter().map(|g| g.after / g.size).collect()
     };

@@ -2,8 +2,6 @@
 //! ask is what the diagnosis predicts, on every row. Kernels are compiled of the same file, and are held against
 //! this textbook elsewhere (`tests/parity`).
 
-use std::collections::BTreeMap;
-
 use stiffarm_codegen::robot::Robot;
 use stiffarm_gap::log::corrected::{Corrected, corrected};
 use stiffarm_gap::log::signal::Signals;
@@ -32,9 +30,6 @@ mass = 2.0
 inertia = [0.05, 0.0, 0.0, 0.05, 0.0, 0.05]
 ";
 
-const STEP: f64 = 0.01;
-const COUNT: usize = 6000;
-
 /// Coulomb and viscous friction of the two joints.
 const FRICTION: [[f64; 2]; 2] = [[6.0, 4.0], [1.5, 2.5]];
 
@@ -44,19 +39,18 @@ const ROTOR: f64 = 0.8;
 fn log() -> Log {
     let path = Path::new(7, 0.6);
     let mut rng = Rng::new(7, Stream::Noise);
-    let (mut q, mut torque) = (vec![Vec::new(); 2], vec![Vec::new(); 2]);
-    for k in 0..COUNT {
-        let [at, v, a] = path.at(STEP * k as f64);
-        let links = rigid(at, v, a);
-        for (j, [coulomb, viscous]) in FRICTION.into_iter().enumerate() {
-            let rotor = if j == 1 { ROTOR * a[1] } else { 0.0 };
-            q[j].push(at[j] + 1e-6 * rng.normal());
-            let noise = 0.1 * rng.normal();
-            let friction = coulomb * v[j].signum() + viscous * v[j];
-            torque[j].push(links[j] + rotor + friction + noise);
-        }
-    }
-    plant::log(STEP, BTreeMap::from([(Signal::Q, q), (Signal::Torque, torque)]))
+    plant::recorded(0.01, 6000, Signal::Torque, |_, t| {
+        let [at, v, a] = path.at(t);
+        let driven = drives(at, v, a);
+        [0, 1].map(|j| [at[j] + 1e-6 * rng.normal(), driven[j] + 0.1 * rng.normal()])
+    })
+}
+
+/// What the links, the rotor and friction ask of the drives.
+fn drives(q: [f64; 2], v: [f64; 2], a: [f64; 2]) -> [f64; 2] {
+    let (links, rotor) = (rigid(q, v, a), [0.0, ROTOR * a[1]]);
+    let friction = |j: usize| FRICTION[j][0] * v[j].signum() + FRICTION[j][1] * v[j];
+    [0, 1].map(|j| links[j] + rotor[j] + friction(j))
 }
 
 fn read(text: &str) -> Robot {
@@ -109,12 +103,8 @@ fn the_written_arm_asks_what_the_diagnosis_predicts() {
     for (q, v, a) in
         [([0.3, -0.8], [0.7, -0.4], [1.1, 2.0]), ([-0.5, -2.0], [-0.3, 0.9], [0.0, -3.0])]
     {
-        let links = rigid(q, v, a);
         let asked = better.inverse_dynamics(&q, &v, &a);
-        for j in 0..2 {
-            let [coulomb, viscous] = FRICTION[j];
-            let rotor = if j == 1 { ROTOR * a[1] } else { 0.0 };
-            let was = links[j] + rotor + coulomb * f64::signum(v[j]) + viscous * v[j];
+        for (j, was) in drives(q, v, a).into_iter().enumerate() {
             assert!((asked[j] - was).abs() < 0.02 * found.gap[j].size, "{} {was}", asked[j]);
         }
     }

@@ -1,6 +1,7 @@
 //! Arms and rows.
 
 use nalgebra::{Isometry3, Vector3, Vector6};
+use stiffarm_gap::Diagnosis;
 use stiffarm_gap::measurement::{Kind, Layout, Measurements, Row};
 use stiffarm_gap::observe::Bench;
 use stiffarm_gap::plant::{Frames, Noise, Plant, Truth};
@@ -143,4 +144,16 @@ pub fn frames(base: Isometry3<f64>, tool: Isometry3<f64>) -> Frames {
 pub fn layout(arm: &Arm, bench: Bench) -> Layout {
     let motions = arm.joints.iter().map(|j| j.motion).collect();
     Layout { motions, readings: true, markers: Vec::new(), payloads: None, bench }
+}
+
+/// A joint that is softer than the file says, rad/(N·m).
+pub const SOFT: &str = "joint_compliance@joint 2=4e-6";
+
+/// It is found, and nothing else.
+#[track_caller]
+pub fn soft_joint_is_found(d: &Diagnosis) {
+    let [finding] = &d.findings[..] else { panic!("{:?}", d.findings) };
+    assert_eq!((&*finding.effect, finding.place.as_str()), ("joint_compliance", "joint 2"));
+    let [low, high] = finding.parameters[0].ci95;
+    assert!((low..=high).contains(&4e-6), "{low:e} {high:e}");
 }

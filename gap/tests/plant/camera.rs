@@ -8,11 +8,10 @@ use stiffarm_gap::plant::{Frames, Noise, csv};
 use stiffarm_gap::{Diagnosis, Measurements, Options, diagnose};
 use stiffarm_kernels::generic::{Arm, Convention};
 
-use crate::arms::{EXACT, layout, loaded, plant, spatial};
+use crate::arms::{EXACT, SOFT, layout, loaded, plant, soft_joint_is_found, spatial};
 
 /// A fifth of a pixel.
 const NOISE: Noise = Noise { position: 0.0, rotation: 0.2 / 1200.0 };
-const TRUTH: &str = "joint_compliance@joint 2=4e-6";
 const MATRIX: [f64; 4] = [1210.0, 1190.0, 640.0, 355.0];
 const DISTORTION: [f64; 5] = [-0.05, 0.02, 1e-3, -2e-3, 0.0];
 
@@ -89,10 +88,7 @@ fn read(arm: &Arm, data: &Measurements, bench: &str) -> Measurements {
 
 #[track_caller]
 fn is_found(d: &Diagnosis) {
-    let [finding] = &d.findings[..] else { panic!("{:?}", d.findings) };
-    assert_eq!((&*finding.effect, finding.place.as_str()), ("joint_compliance", "joint 2"));
-    let [low, high] = finding.parameters[0].ci95;
-    assert!((low..=high).contains(&4e-6), "{low:e} {high:e}");
+    soft_joint_is_found(d);
     assert_eq!(&*d.gap.after.kinds["camera"].unit, "px");
     let left = d.gap.after.kinds["camera"].rms / (0.2 * 2.0_f64.sqrt());
     assert!((0.9..1.1).contains(&left), "{left}");
@@ -120,7 +116,7 @@ fn a_camera_beside_the_arm_shows_a_soft_joint() {
     let design = shown(&arm, Shape::Payload, &frames, false, &corners);
     // Loads act at the tool, and not at the board.
     let board = Isometry3::new(Vector3::new(0.15, -0.12, 0.1), Vector3::new(0.2, -0.3, 0.5));
-    let plant = plant(&arm, &[TRUTH]).with_frames(frames);
+    let plant = plant(&arm, &[SOFT]).with_frames(frames);
     let data = plant.measure(&mounted(&design, &board), NOISE, 1).expect("rows");
     let known = read(&arm, &data, &bench("base", &lens(MATRIX, &DISTORTION, ""), &corners));
     let found = diagnose(&arm, &known, &Options::default()).expect("a diagnosis");
@@ -204,7 +200,7 @@ fn levels_and_gauges_have_zeros_of_their_own() {
     let kind = Kind::Bench { lengths: 1, angles: true };
     let design = Measurements::new("levels", kind, rows);
     let noise = Noise { position: 2e-5, rotation: 2e-5 };
-    let data = plant(&arm, &[TRUTH]).measure(&design, noise, 3).expect("rows");
+    let data = plant(&arm, &[SOFT]).measure(&design, noise, 3).expect("rows");
     let data = read(&arm, &data, "");
     let found = diagnose(&arm, &data, &Options::default()).expect("a diagnosis");
     let [finding] = &found.findings[..] else { panic!("{:?}", found.findings) };

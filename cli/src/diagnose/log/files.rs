@@ -2,8 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use stiffarm_gap::io::ReadError;
-use stiffarm_gap::log::{self, Format, Log, Names, Opened};
+use stiffarm_gap::log::{Log, Names, Opened};
 use stiffarm_kernels::Motion;
 
 use super::super::Settings;
@@ -41,18 +40,6 @@ impl Part {
             true => host.read(&self.path),
             false => Ok(self.opened.head().to_vec()),
         }
-    }
-
-    /// Whether its columns are those of a log, as far as its kind does not say it.
-    fn is_log(&self) -> bool {
-        if Format::of(self.opened.head()) != Format::Text {
-            return true;
-        }
-        let mut lines = self.opened.head().split(|b| *b == b'\n').map(String::from_utf8_lossy);
-        let header = lines.find(|line| !line.starts_with('#') && !line.trim().is_empty());
-        let header = header.unwrap_or_default();
-        let names: Vec<&str> = header.trim().split([',', ';', '\t', ' ']).map(str::trim).collect();
-        log::is_log(&names)
     }
 }
 
@@ -95,7 +82,7 @@ fn messages(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
 /// [`Failure`]: a file that cannot be read, options of a log beside files that are none.
 pub fn files(data: &[PathBuf], settings: &Settings, host: &Host) -> Result<Files, Failure> {
     let parts = parts(data, host)?;
-    let is_log = |part: &Part| settings.map.is_some() || part.is_log();
+    let is_log = |part: &Part| settings.map.is_some() || part.opened.is_log();
     let (of_log, others): (Vec<Part>, Vec<Part>) = parts.into_iter().partition(is_log);
     let measured = |parts: Vec<Part>| -> Result<Vec<(PathBuf, Vec<u8>)>, Failure> {
         parts.iter().map(|part| Ok((part.path.clone(), part.bytes(host)?))).collect()
@@ -123,7 +110,7 @@ pub fn files(data: &[PathBuf], settings: &Settings, host: &Host) -> Result<Files
 /// # Errors
 /// [`Failure`]: it cannot be read.
 pub fn is_log(path: &Path, host: &Host) -> Result<bool, Failure> {
-    Ok(parts(&[path.to_owned()], host)?.iter().any(Part::is_log))
+    Ok(parts(&[path.to_owned()], host)?.iter().any(|part| part.opened.is_log()))
 }
 
 /// The log in these files.
@@ -131,12 +118,11 @@ pub fn is_log(path: &Path, host: &Host) -> Result<bool, Failure> {
 /// # Errors
 /// [`Failure`]: what cannot be read.
 pub fn read(parts: Vec<Part>, motions: &[Motion], names: &Names) -> Result<Log, Failure> {
-    let plain = |error: ReadError| Failure::new(error.to_string());
     let mut log: Option<Log> = None;
     for Part { path, opened } in parts {
-        let next = Log::from_file(&path, opened, motions, names).map_err(plain)?;
+        let next = Log::from_file(&path, opened, motions, names)?;
         log = Some(match log {
-            Some(log) => log.and(next).map_err(plain)?,
+            Some(log) => log.and(next)?,
             None => next,
         });
     }

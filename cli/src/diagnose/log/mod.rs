@@ -38,7 +38,6 @@ impl Settings {
                 format!("--map: found `{map}`, expected a file or one of {}", known.join(", "));
             return Err(Failure::new(message));
         }
-        let read = Map::read(map, &text(Path::new(map), host)?);
-        Ok(own.mapped(read.map_err(|error| Failure::new(error.to_string()))?))
+        Ok(own.mapped(Map::read(map, &text(Path::new(map), host)?)?))
     }
 }

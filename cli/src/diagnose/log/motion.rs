@@ -7,7 +7,7 @@ use stiffarm_codegen::robot::Robot;
 use stiffarm_gap::log::effects::Catalogue;
 use stiffarm_gap::log::model::Springs;
 use stiffarm_gap::log::{
-    Domain, Log, LogDiagnosis, LogOptions, Model, Names, Refused, TorqueSide, diagnosed_with,
+    Domain, Log, LogDiagnosis, LogOptions, Model, Names, TorqueSide, diagnosed_with,
 };
 use stiffarm_gap::spring::Spring;
 use stiffarm_kernels::generic::Arm;
@@ -55,10 +55,6 @@ fn motions(arm: &Arm) -> Vec<stiffarm_kernels::Motion> {
     arm.joints.iter().map(|joint| joint.motion).collect()
 }
 
-fn plain(error: Refused) -> Failure {
-    Failure::new(error.to_string())
-}
-
 impl Motion {
     /// Reads and diagnoses a log, with the effects of `catalogue`.
     ///
@@ -99,7 +95,7 @@ impl Motion {
             stages
                 .say(format!("looking for effects of motion, {} found", counted(found, "finding")));
         };
-        let (found, model) = diagnosed_with(&arm, &log, &options, &each).map_err(plain)?;
+        let (found, model) = diagnosed_with(&arm, &log, &options, &each)?;
         drop(stages);
         found.remarks.iter().for_each(|remark| host.note(remark));
         let names = (names, settings.map.is_some());
@@ -121,7 +117,7 @@ impl Motion {
     }
 
     fn predicted(&self, other: &Log) -> Result<PredictedLog, Failure> {
-        let explained = self.model.explain(&self.arm, other).map_err(plain)?;
+        let explained = self.model.explain(&self.arm, other)?;
         let check = Check::of(&self.found, &self.model, other, &explained);
         Ok(PredictedLog { explained, check })
     }
@@ -178,7 +174,7 @@ impl Motion {
     /// its size, mean.
     pub(in super::super) fn beside(&self, springs: &[Spring]) -> Result<(Model, f64), Failure> {
         let model = self.model.beside(springs);
-        let explained = model.explain(&self.arm, &self.log).map_err(plain)?;
+        let explained = model.explain(&self.arm, &self.log)?;
         let [_, left] = left(&explained.gap(model.rows, &self.found.gap));
         Ok((model, left))
     }
@@ -201,7 +197,7 @@ impl Found for Motion {
         if !is_page {
             return Ok((self.reported(None).document(), Embedded::default()));
         }
-        let explained = self.model.explain(&self.arm, &self.log).map_err(plain)?;
+        let explained = self.model.explain(&self.arm, &self.log)?;
         let fitted = Fitted { explained: &explained, arm: &self.arm };
         let reported = self.reported(Some(fitted));
         Ok((reported.document(), reported.embedded(&fitted, &self.found)?))

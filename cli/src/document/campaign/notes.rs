@@ -7,7 +7,7 @@ use stiffarm_gap::measurement::ExtraColumn;
 
 use super::Campaign;
 use crate::document::Block;
-use crate::document::words::words;
+use crate::document::words::{lower, words};
 use crate::terminal::text::{fixed, listed, short};
 
 /// Residuals are reported as odd where noise makes them so less often, and it matters.
@@ -232,10 +232,4 @@ impl Campaign<'_> {
 fn shares(name: &'static str, places: &[Share], remark: &str) -> Block {
     let shares = places.iter().filter(|s| s.share >= LEAST).map(|s| (s.place.clone(), s.share));
     Block::Shares { name, shares: shares.collect(), remark: remark.to_owned() }
-}
-
-fn lower(text: &str) -> String {
-    let mut letters = text.chars();
-    let first = letters.next().map(|c| c.to_lowercase().to_string());
-    first.unwrap_or_default() + letters.as_str()
 }

@@ -1,10 +1,10 @@
 //! What was co-estimated, what remains and depends on what, what this log cannot show.
 
-use stiffarm_gap::report::CannotSee;
+use stiffarm_gap::report::log::Dependence;
 
 use super::Log;
 use crate::document::Block;
-use crate::document::words::{share, words};
+use crate::document::words::{gathered, share, words};
 use crate::input::quantity::counted;
 use crate::terminal::text::{listed, short};
 
@@ -66,14 +66,9 @@ impl Log<'_> {
 
     /// On what the residuals depend, joint by joint; the largest share first.
     fn unexplained(&self) -> Vec<String> {
-        let mut told: Vec<(&str, Vec<String>)> = Vec::new();
-        for rest in &self.found.unexplained.depends_on {
-            let part = format!("{} depends on its {}", share(rest.share), rest.of);
-            match told.iter_mut().find(|(place, _)| *place == rest.place) {
-                Some((_, parts)) => parts.push(part),
-                None => told.push((&rest.place, vec![part])),
-            }
-        }
+        let part = |rest: &Dependence| format!("{} depends on its {}", share(rest.share), rest.of);
+        let all = self.found.unexplained.depends_on.iter();
+        let told = gathered(all.map(|rest| (rest.place.as_str(), part(rest))));
         let line = |(place, parts): (&str, Vec<String>)| {
             format!("of the residuals of {place} {}", listed(&parts, MOST))
         };
@@ -82,18 +77,10 @@ impl Log<'_> {
 
     /// What the log cannot show and why, places of the same kind in one line.
     fn hidden(&self) -> Vec<String> {
-        let mut told: Vec<(&CannotSee, Vec<&str>)> = Vec::new();
-        for hidden in &self.found.cannot_see {
-            let same = |(first, _): &&mut (&CannotSee, Vec<&str>)| {
-                first.effect == hidden.effect && first.because() == hidden.because()
-            };
-            match told.iter_mut().find(same) {
-                Some((_, places)) => places.push(&hidden.place),
-                None => told.push((hidden, vec![&hidden.place])),
-            }
-        }
-        let line = |(first, places): (&CannotSee, Vec<&str>)| {
-            format!("{} at {}: {}", words(&first.effect), places.join(", "), first.because())
+        let all = self.found.cannot_see.iter();
+        let told = gathered(all.map(|one| ((&*one.effect, one.because()), &*one.place)));
+        let line = |((effect, because), places): ((&str, &str), Vec<&str>)| {
+            format!("{} at {}: {because}", words(effect), places.join(", "))
         };
         told.into_iter().map(line).collect()
     }

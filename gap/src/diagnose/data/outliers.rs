@@ -8,7 +8,7 @@ use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use super::noise::{Level, Noise, Source};
 use super::problem::Problem;
-use crate::gap::percentile;
+use crate::gap::{ascending, percentile};
 use crate::measurement::{Measurements, ONE_IN, Row};
 
 /// Of a campaign of normal errors so much is left out: less than one row in a hundred of them.
@@ -27,8 +27,7 @@ pub(crate) fn ordinary(data: &Measurements) -> Vec<bool> {
     let mut ordinary = vec![true; data.rows.len()];
     for from in [0, 3] {
         let size = |row: &Row| row.wrench.fixed_rows::<3>(from).norm();
-        let mut loads: Vec<f64> = data.rows.iter().map(size).filter(|load| *load > 0.0).collect();
-        loads.sort_by(f64::total_cmp);
+        let loads = ascending(data.rows.iter().map(size).filter(|load| *load > 0.0));
         // Of nine in ten the largest; none that is far beyond has a part in it.
         let Some(usual) = (9 * loads.len()).div_ceil(10).checked_sub(1).map(|k| loads[k]) else {
             continue;
@@ -58,9 +57,7 @@ pub(crate) fn fitting(problem: &Problem<'_>, noise: &Noise, gaps: &[Vector6<f64>
 /// The largest squared norm of one kind that fits among those of all rows.
 fn limit(level: &Level, sizes: &[f64], rows: usize) -> f64 {
     let Ok(chi) = ChiSquared::new(level.components as f64) else { return f64::INFINITY };
-    let mut ascending = sizes.to_vec();
-    ascending.sort_by(f64::total_cmp);
-    let middle = percentile(&ascending, 0.5) / chi.inverse_cdf(0.5);
+    let middle = percentile(&ascending(sizes.iter().copied()), 0.5) / chi.inverse_cdf(0.5);
     // Repeats that do not fit would count as noise.
     let given = if level.source == Source::Option { level.sd.powi(2) } else { 0.0 };
     middle.max(given) * chi.inverse_cdf(1.0 - LEVEL / rows as f64)

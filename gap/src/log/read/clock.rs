@@ -1,6 +1,7 @@
 //! What the time stamps of a run tell of its clock.
 
 use super::Run;
+use crate::gap::middle;
 
 /// A step of more than so many periods lost samples.
 const LOST: f64 = 1.5;
@@ -25,9 +26,7 @@ impl Clock {
     /// Of stamps that increase.
     pub(crate) fn of(t: &[f64], repeated: usize) -> Clock {
         let steps: Vec<f64> = t.windows(2).map(|pair| pair[1] - pair[0]).collect();
-        let mut sorted = steps.clone();
-        sorted.sort_by(f64::total_cmp);
-        let Some(&period) = sorted.get(sorted.len() / 2) else {
+        let Some(period) = middle(steps.iter().copied()) else {
             return Clock { repeated, ..Clock::default() };
         };
         let (whole, lost): (Vec<f64>, Vec<f64>) =

@@ -124,8 +124,9 @@ impl Role {
 }
 
 /// Whether a header is that of a log: `t`, joint values, and what drives or commands a joint.
-pub fn is_log(header: &[&str]) -> bool {
-    let roles: Vec<Role> = header.iter().filter_map(|name| Role::of(split(name).0)).collect();
+pub(super) fn is_log(header: &[impl AsRef<str>]) -> bool {
+    let role = |name: &_| Role::of(split(AsRef::as_ref(name)).0);
+    let roles: Vec<Role> = header.iter().filter_map(role).collect();
     let has = |signal| roles.iter().any(|r| matches!(r, Role::Joint(s, _) if *s == signal));
     roles.contains(&Role::Time)
         && has(Signal::Q)

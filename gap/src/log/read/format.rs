@@ -6,6 +6,7 @@ use std::path::Path;
 
 use stiffarm_kernels::Motion;
 
+use super::column::is_log;
 use super::{Log, Names, text};
 use crate::io::{Fault, ReadError};
 
@@ -84,6 +85,12 @@ impl Opened {
     /// Its first bytes.
     pub fn head(&self) -> &[u8] {
         &self.head
+    }
+
+    /// Whether it is a log by its columns, as far as its kind does not say it.
+    pub fn is_log(&self) -> bool {
+        Format::of(&self.head) != Format::Text
+            || text::header(&self.head).is_some_and(|names| is_log(&names))
     }
 
     /// All of them, from the first.

@@ -6,7 +6,8 @@
 
 use core::ops::Range;
 
-use super::{Lacking, Signal};
+use super::{Lacking, MOST_NAMED, Signal};
+use crate::io::listed;
 
 /// Steps beyond which nothing is interpolated.
 pub const GAP: f64 = 5.0;
@@ -56,16 +57,12 @@ pub(super) fn fill(t: &[f64], x: &mut [f64], period: f64) -> Vec<Range<usize>> {
 pub(super) fn remark(all: &[Lacking]) -> Option<String> {
     let first = all.first()?;
     let name = |one: &Lacking| format!("{} in {} rows", one.name, one.rows);
-    let named: Vec<String> = all.iter().take(8).map(name).collect();
-    let more = match all.len() - named.len() {
-        0 => String::new(),
-        more => format!(" and {more} more"),
-    };
+    let named: Vec<String> = all.iter().map(name).collect();
     Some(format!(
-        "{}: no number for {}{more}, first in {} {} (found `{}`): short gaps are interpolated; in long ones of what drives a \
+        "{}: no number for {}, first in {} {} (found `{}`): short gaps are interpolated; in long ones of what drives a \
          joint its rows are left out, and no other joint's",
         first.file,
-        named.join(", "),
+        listed(&named, MOST_NAMED),
         first.row,
         first.line,
         first.found,

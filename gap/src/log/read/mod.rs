@@ -38,7 +38,7 @@ mod text;
 use std::collections::BTreeMap;
 
 pub use clock::Clock;
-pub use column::{Signal, is_log};
+pub use column::Signal;
 pub use format::{Format, Opened};
 pub use holes::{GAP, Hole};
 pub use names::Names;
@@ -46,7 +46,8 @@ use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
 use crate::doubts::beyond;
-use crate::io::{Fault, ReadError};
+use crate::gap::middle;
+use crate::io::{Fault, ReadError, listed};
 
 /// Where along the drive the torque of a log is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -161,6 +162,9 @@ pub struct Lacking {
     pub found: String,
 }
 
+/// Rows and columns that a remark names before the rest is counted.
+const MOST_NAMED: usize = 8;
+
 /// A file that is none of its kind.
 #[cfg(any(feature = "mcap", feature = "parquet", feature = "rosbag2"))]
 fn unreadable(file: &str, kind: &str, error: impl std::fmt::Display) -> ReadError {
@@ -179,6 +183,15 @@ impl Log {
         names: &Names,
     ) -> Result<Log, ReadError> {
         text::read(file, bytes, motions, names)
+    }
+
+    /// Reads the text of a log of this arm under our own names.
+    ///
+    /// # Errors
+    /// As [`Log::from_bytes`].
+    pub fn of_arm(arm: &Arm, file: &str, text: &str) -> Result<Log, ReadError> {
+        let motions: Vec<Motion> = arm.joints.iter().map(|joint| joint.motion).collect();
+        Log::from_bytes(file, text.as_bytes(), &motions, &Names::default())
     }
 
     /// With the runs of another file.
@@ -210,10 +223,8 @@ impl Log {
 
     /// The usual step of all runs, s.
     pub fn period(&self) -> f64 {
-        let mut periods: Vec<f64> = self.runs.iter().map(|run| run.clock.period).collect();
-        periods.retain(|period| *period > 0.0);
-        periods.sort_by(f64::total_cmp);
-        periods.get(periods.len() / 2).copied().unwrap_or(1.0)
+        let periods = self.runs.iter().map(|run| run.clock.period);
+        middle(periods.filter(|period| *period > 0.0)).unwrap_or(1.0)
     }
 
     /// Whether it has this signal.
@@ -232,16 +243,13 @@ impl Log {
     pub fn remarks(&self) -> Vec<String> {
         let mut said = Vec::new();
         if let Some(first) = self.damaged.first() {
-            let lines: Vec<String> =
-                self.damaged.iter().take(8).map(|d| d.line.to_string()).collect();
-            let more = self.damaged.len().saturating_sub(lines.len());
-            let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+            let lines: Vec<u64> = self.damaged.iter().map(|damaged| damaged.line).collect();
             said.push(format!(
-                "{}: {} of {} rows are damaged and left out: {row} {}{more}; {row} {}: {}",
+                "{}: {} of {} rows are damaged and left out: {row} {}; {row} {}: {}",
                 first.file,
                 self.damaged.len(),
                 self.damaged.len() + self.samples,
-                lines.join(", "),
+                listed(&lines, MOST_NAMED),
                 first.line,
                 first.reason,
                 row = first.row,
@@ -249,12 +257,7 @@ impl Log {
         }
         said.extend(holes::remark(&self.lacking));
         if !self.unknown.is_empty() {
-            let named: Vec<&str> = self.unknown.iter().take(8).map(String::as_str).collect();
-            let more = match self.unknown.len() - named.len() {
-                0 => String::new(),
-                more => format!(" and {more} more"),
-            };
-            said.push(format!("nothing reads {}{more}", named.join(", ")));
+            said.push(format!("nothing reads {}", listed(&self.unknown, MOST_NAMED)));
         }
         said.extend(clock::remarks(&self.runs));
         said

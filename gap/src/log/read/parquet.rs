@@ -16,6 +16,7 @@ use super::column::Signal;
 use super::table::{Cell, Header, Table};
 use super::{Log, Names, TorqueSide, unreadable};
 use crate::io::ReadError;
+use crate::io::cell::Decimals;
 use crate::io::columns::split;
 
 /// What the cells of a row group are, row by row.
@@ -121,7 +122,7 @@ fn columns(
             (true, false) => format!("{name}[{k}]"),
         }));
     }
-    let header = Header { names, line: None, row: "row", side };
+    let header = Header { names, line: None, row: "row", side, decimals: Decimals::default() };
     Ok((leaves, header))
 }
 

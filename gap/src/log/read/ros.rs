@@ -9,6 +9,7 @@ use stiffarm_kernels::Motion;
 use super::cdr::{Encoding, Fields};
 use super::table::{Cell, Header, Table};
 use super::{Log, Names};
+use crate::io::cell::Decimals;
 use crate::io::{Fault, ReadError};
 
 /// What a message is.
@@ -216,7 +217,7 @@ impl Source {
             let all = self.joints.iter().filter(|_| *has);
             names.extend(all.map(|joint| format!("{topic}/{joint}/{part}")));
         }
-        Header { names, line: None, row: "message", side: None }
+        Header { names, line: None, row: "message", side: None, decimals: Decimals::default() }
     }
 
     fn fill(self, mut table: Table) -> Result<Log, ReadError> {

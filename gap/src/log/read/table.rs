@@ -5,8 +5,9 @@ use stiffarm_kernels::Motion;
 use super::column::{Role, Signal};
 use super::holes::{Hole, fill};
 use super::{Clock, Damaged, Lacking, Log, Names, Run, TorqueSide};
-use crate::io::columns::{self, split};
-use crate::io::{Dimension, Fault, Mistakes, ReadError, Unit, did_you_mean, nearest};
+use crate::io::cell::Decimals;
+use crate::io::columns::{self, Found, split};
+use crate::io::{Fault, Mistakes, ReadError, Unit, did_you_mean, nearest};
 
 /// No joint value, torque, current or time of an arm is larger in SI: what is, is a damaged cell. (Stamps
 /// since 1970 are below 1e10.)
@@ -26,6 +27,8 @@ pub(super) struct Header {
     pub row: &'static str,
     /// Where its torques are measured, if it says so.
     pub side: Option<TorqueSide>,
+    /// What begins the decimals of its texts.
+    pub decimals: Decimals,
 }
 
 /// A cell of a row.
@@ -48,6 +51,7 @@ pub(super) struct Table {
     /// Of each cell what is known of rows that lack it.
     lacking: Vec<Option<Lacking>>,
     row: &'static str,
+    decimals: Decimals,
     open: Option<Open>,
     sample: Sample,
 }
@@ -115,7 +119,8 @@ impl Table {
             unknown: columns.unknown.clone(),
         };
         let lacking = vec![None; columns.heads.len()];
-        Ok(Table { columns, log, lacking, row: header.row, open: None, sample: Sample::default() })
+        let (row, decimals) = (header.row, header.decimals);
+        Ok(Table { columns, log, lacking, row, decimals, open: None, sample: Sample::default() })
     }
 
     /// Whether a column's cells are read.
@@ -130,7 +135,7 @@ impl Table {
         row: u64,
         cells: impl ExactSizeIterator<Item = Cell<'c>> + Clone,
     ) {
-        match self.columns.read(cells.clone(), &mut self.sample) {
+        match self.columns.read(cells.clone(), &mut self.decimals, &mut self.sample) {
             Err(reason) => self.damaged(row, reason),
             Ok(()) => {
                 self.log.samples += 1;
@@ -192,19 +197,31 @@ impl Head {
         self.role.name()
     }
 
+    /// `None` of a name of ours that is no column of a log; `written` is the unit in the header.
+    ///
     /// # Errors
     /// A joint that the arm has not, or a unit of another quantity.
-    fn new(role: Role, unit: Option<&str>, motions: &[Motion]) -> Result<Head, Fault> {
+    fn new(
+        (ours, theirs): &Found,
+        written: Option<&str>,
+        motions: &[Motion],
+    ) -> Option<Result<Head, Fault>> {
+        let role = Role::of(ours)?;
         if let Role::Joint(_, joint) = role
             && joint >= motions.len()
         {
             let (found, last) = (format!("`{}`", role.name()), motions.len());
-            return Err(Fault::new(found, format!("joints 1 to {last}"), "the arm has no other"));
+            let expected = format!("joints 1 to {last}");
+            return Some(Err(Fault::new(found, expected, "the arm has no other")));
         }
-        let read = |(dimension, unit): (Dimension, &str)| dimension.unit(unit, Unit::named);
-        let unit = role.dimension(motions).zip(unit).map(read).transpose()?;
-        let (factor, offset) = unit.map_or((1.0, 0.0), |unit| (unit.factor, unit.offset));
-        Ok(Head { role, factor, offset, slot: 0 })
+        let unit = role.dimension(motions).zip(theirs.unit.as_deref().or(written));
+        let unit = unit.map(|(dimension, unit)| dimension.unit(unit, Unit::named)).transpose();
+        let law = |unit: Option<Unit>| {
+            let [factor, offset] = unit.map_or([1.0, 0.0], |unit| [unit.factor, unit.offset]);
+            let offset = factor * theirs.offset + offset;
+            Head { role, factor: factor * theirs.factor, offset, slot: 0 }
+        };
+        Some(unit.map(law))
     }
 }
 
@@ -227,22 +244,14 @@ impl Columns {
         let meaning = |k: usize| names.role(&header.names[k]).map(Role::name);
         let assigned = said.assign(&meaning, &mut mistakes);
         let mut heads: Vec<Option<Head>> = Vec::with_capacity(header.names.len());
-        for (k, ours) in assigned.into_iter().enumerate() {
-            let read = ours.and_then(|(name, theirs)| Some((Role::of(&name)?, theirs)));
-            heads.push(read.and_then(|(role, theirs)| {
+        for (k, found) in assigned.into_iter().enumerate() {
+            heads.push(found.and_then(|found| {
                 // An index in brackets (`position[0]`) is no unit.
                 let written = split(&header.names[k]).1;
                 let written = written.filter(|unit| unit.parse::<usize>().is_err());
-                let unit = theirs.and_then(|theirs| theirs.unit.as_deref()).or(written);
-                let head = Head::new(role, unit, motions);
-                let (factor, offset) = theirs.map_or((1.0, 0.0), |t| (t.factor, t.offset));
+                let head = Head::new(&found, written, motions)?;
                 let wrong = |fault: Fault| fault.within(header.line, Some(said.column(k)));
-                let head = head.map_err(|fault| mistakes.add(wrong(fault))).ok()?;
-                Some(Head {
-                    factor: head.factor * factor,
-                    offset: head.factor * offset + head.offset,
-                    ..head
-                })
+                head.map_err(|fault| mistakes.add(wrong(fault))).ok()
             }));
         }
         let nothing = (0..heads.len()).filter(|k| heads[*k].is_none() && !said.ignores(*k));
@@ -309,6 +318,7 @@ impl Columns {
     fn read<'c>(
         &self,
         cells: impl ExactSizeIterator<Item = Cell<'c>>,
+        decimals: &mut Decimals,
         sample: &mut Sample,
     ) -> Result<(), String> {
         if cells.len() != self.heads.len() {
@@ -326,8 +336,8 @@ impl Columns {
                 cell.text_into(word);
                 continue;
             }
-            let number =
-                cell.number().map(|x| head.factor * x + head.offset).filter(|x| x.abs() < LARGEST);
+            let number = cell.number(decimals).map(|x| head.factor * x + head.offset);
+            let number = number.filter(|x| x.abs() < LARGEST);
             let number = match (number, head.role) {
                 (Some(number), _) => number,
                 (None, Role::Joint(signal, _)) if self.can_lack(signal, sample, head.slot) => {
@@ -369,9 +379,9 @@ impl Columns {
 }
 
 impl Cell<'_> {
-    fn number(self) -> Option<f64> {
+    fn number(self, decimals: &mut Decimals) -> Option<f64> {
         match self {
-            Cell::Text(bytes) => core::str::from_utf8(bytes).ok()?.trim().parse().ok(),
+            Cell::Text(bytes) => decimals.look(core::str::from_utf8(bytes).ok()?.trim()),
             Cell::Number(number) => Some(number),
         }
     }

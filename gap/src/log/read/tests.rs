@@ -154,3 +154,30 @@ fn a_map_comes_first() {
         "{error}"
     );
 }
+
+/// A German controller's: title, semicolons, decimal commas, Windows-1252; a point behind a comma is of thousands.
+#[test]
+fn a_log_has_the_dialects_of_a_table() {
+    let text = b"Pr\xfcfstand 7\nt[s];q1[\xb0];tau1;note\n0,5;180;1,5;a\n0,6;90;1.234,5;b\n0,7;90;1.234;c\n";
+    let read = |map: &str| {
+        let names = Names::default().mapped(Map::read("m.toml", map).unwrap());
+        Log::from_bytes("log.csv", text, &MOTIONS[..1], &names).map_err(|error| error.to_string())
+    };
+    let log = read("header = 2\n").unwrap();
+    assert_eq!((log.runs[0].t.as_slice(), log.samples), ([0.5, 0.6].as_slice(), 2));
+    assert_eq!(log.runs[0].signals[&Signal::Torque], [[1.5, 1234.5]]);
+    assert_eq!(log.damaged[0].reason, "found `1.234` for tau1, expected a number");
+    let log = read("header = 2\ndecimal = \",\"\n").unwrap();
+    assert_eq!(log.runs[0].signals[&Signal::Torque], [[1.5, 1234.5, 1234.0]]);
+    let error = read("header = 9\n").unwrap_err();
+    assert!(
+        error.starts_with("log.csv: line 9: found no header, expected a row of names there"),
+        "{error}"
+    );
+    assert!(read("").unwrap_err().contains("found no column `t`"));
+    let wide: Vec<u8> =
+        "\u{feff}t;q1;tau1\n0;1;2\n".encode_utf16().flat_map(u16::to_le_bytes).collect();
+    assert!(super::Opened::from(wide.clone()).is_log());
+    let log = Log::from_bytes("log.csv", &wide, &MOTIONS[..1], &Names::default()).unwrap();
+    assert_eq!(log.runs[0].signals[&Signal::Torque], [[2.0]]);
+}

@@ -1,13 +1,15 @@
 //! Logs as text: cells between commas, semicolons, tabs or spaces.
 
-use std::io::{BufReader, Read};
+use std::io::{BufRead, BufReader, Read};
 
 use stiffarm_kernels::Motion;
 
 use super::table::{Cell, Header, Table};
 use super::{Log, Names, TorqueSide};
+use crate::io::cell::Decimals;
+use crate::io::encoding::Encoding;
 use crate::io::table::{Record, Records, commented};
-use crate::io::{Fault, Mistake, ReadError};
+use crate::io::{Fault, Map, Mistake, ReadError};
 
 pub(super) fn read(
     file: &str,
@@ -16,15 +18,26 @@ pub(super) fn read(
     names: &Names,
 ) -> Result<Log, ReadError> {
     let wrong = |mistake: Mistake| mistake.of(file);
-    let source = BufReader::with_capacity(1 << 16, source);
-    let mut records = Records::new(source, names.map().separator()).map_err(wrong)?;
-    let Some(top) = records.read().map_err(wrong)? else {
+    let mut source = BufReader::with_capacity(1 << 16, source);
+    // What cannot be read is told by who reads it next.
+    let encoding = source.fill_buf().map_or(Encoding::Utf8, Encoding::of_head);
+    let map = names.map();
+    let mut records = Records::new(encoding.decoded(source), map.separator()).map_err(wrong)?;
+    let (mut top, given) = (None, map.header.unwrap_or(0));
+    while top.is_none()
+        && let Some(record) = records.read().map_err(wrong)?
+    {
+        top = (record.line >= given).then(|| (record.line, words(record)));
+    }
+    let Some((line, said)) = top.filter(|(line, _)| given == 0 || *line == given) else {
+        if given > 0 {
+            return Err(wrong(Map::no_header(given)));
+        }
         let expected = "a row of names: t[s], q1[rad] …, tau1[N*m] …";
         return Err(Fault::new("no header", expected, "").of(file));
     };
-    let said: Vec<String> = top.cells().map(|c| String::from_utf8_lossy(c).into_owned()).collect();
-    let line = top.line;
     let side = side(&records.above).map_err(wrong)?;
+    let separator = records.separator();
     let mut record = records.read().map_err(wrong)?;
     // What the first row holds in brackets is one column for each of its numbers.
     let cells = |record: &Record, k: usize| Some(list(record.cell(k)?)?.count());
@@ -41,6 +54,7 @@ pub(super) fn read(
         line: Some(line),
         row: "line",
         side,
+        decimals: Decimals::of(separator, map),
     };
     let mut table = Table::new(file, &header, motions, names)?;
     let has_lists = lists.iter().any(Option::is_some);
@@ -59,6 +73,16 @@ pub(super) fn read(
         record = records.read().map_err(wrong)?;
     }
     table.end()
+}
+
+/// The names of the columns of a text that begins so.
+pub(super) fn header(head: &[u8]) -> Option<Vec<String>> {
+    let mut records = Records::new(Encoding::of_head(head).decoded(head), None).ok()?;
+    records.read().ok()?.map(words)
+}
+
+fn words(record: &Record) -> Vec<String> {
+    record.cells().map(|cell| String::from_utf8_lossy(cell).into_owned()).collect()
 }
 
 /// The cells of `[1, 2, 3]`.

@@ -6,6 +6,8 @@
 
 use core::f64::consts::PI;
 
+use crate::gap::middle;
+
 /// Samples of one spectrum, and how many spectra at most.
 const WINDOW: usize = 512;
 const MOST: usize = 40;
@@ -75,9 +77,7 @@ fn spectrum(parts: &[&[f64]]) -> Option<Vec<f64>> {
 
 /// The part of the sampling rate up to which a spectrum stands clear of its floor.
 fn edge(power: &[f64]) -> Option<f64> {
-    let mut top: Vec<f64> = power[power.len() / 2..].to_vec();
-    top.sort_by(f64::total_cmp);
-    let floor = top[top.len() / 2];
+    let floor = middle(power[power.len() / 2..].iter().copied())?;
     let last = power.iter().rposition(|p| *p > CLEAR * floor)?;
     Some((last + 1) as f64 / (2.0 * power.len() as f64))
 }

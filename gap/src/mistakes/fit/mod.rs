@@ -19,6 +19,7 @@ use stiffarm_kernels::generic::{self, Arm, Convention};
 use super::kind::Mistake;
 use super::rows::Rows;
 use crate::doubts::reach;
+use crate::gap::{ascending, rms};
 use open::Open;
 
 /// Prior scale of a joint's zero, rad (m): marks and masters are good to some mrad.
@@ -299,10 +300,9 @@ impl Fit {
 
     /// Root mean square of the rows that fit best.
     fn scale(&self, gaps: &[Gap]) -> f64 {
-        let mut sizes: Vec<f64> = gaps.iter().map(|gap| self.size(gap)).collect();
-        sizes.sort_by(f64::total_cmp);
+        let mut sizes = ascending(gaps.iter().map(|gap| self.size(gap)));
         sizes.truncate(((KEPT * sizes.len() as f64).ceil() as usize).max(1));
-        crate::gap::rms(&sizes).max(1e-9)
+        rms(&sizes).max(1e-9)
     }
 
     /// Of Cauchy's form, with the priors.

@@ -113,6 +113,14 @@ impl<'a> MovingPlant<'a> {
         stages.iter().enumerate().map(run).collect()
     }
 
+    /// The same as the text of a log.
+    ///
+    /// # Errors
+    /// As [`MovingPlant::record`].
+    pub fn text(&self, stages: &[Stage<'_>], seed: u64) -> Result<String, MotionError> {
+        Ok(csv(self.arm, self.logged, &self.record(stages, seed)?, &[]))
+    }
+
     fn run(&self, k: usize, stage: &Stage<'_>, rng: &mut Rng) -> Result<Recorded, MotionError> {
         let step = self.step();
         let (real, nominal) = (self.machine(&self.of_run(k), stage)?, self.machine(&[], stage)?);

@@ -9,7 +9,7 @@ use nalgebra::Matrix3;
 use super::*;
 use crate::effects::IN_MOTION;
 use crate::fixture::rigid;
-use crate::log::{Domain, Log, Names, Signal, TorqueSide};
+use crate::log::{Domain, Log, Signal, TorqueSide};
 use crate::motion::{Fourier, Limits, State};
 
 /// An elbow with inertias, rotors and friction.
@@ -315,13 +315,12 @@ fn logs_are_read_back() {
         Stage { course: &course, payload: None },
         Stage { course: &course, payload: Some(("disc".to_owned(), 2.0, Vector3::z() * 0.1)) },
     ];
-    let motions: Vec<_> = arm.joints.iter().map(|joint| joint.motion).collect();
     let sides = [Side::Motor, Side::Link, Side::Current, Side::Commanded].map(Logged::Torque);
     for logged in [&sides[..], &[Logged::Position]].concat() {
         let plant = MovingPlant::new(&arm, &[], logged, Recording::default());
         let runs = plant.record(&stages, 3).unwrap();
         let text = csv(&arm, logged, &runs, &["simulated".to_owned()]);
-        let log = Log::from_bytes("log", text.as_bytes(), &motions, &Names::default()).unwrap();
+        let log = Log::of_arm(&arm, "log", &text).unwrap();
         assert_eq!((log.runs.len(), log.damaged.len()), (2, 0));
         let (side, signal) = match logged {
             Logged::Torque(Side::Motor) => (Some(TorqueSide::Motor), Signal::Torque),
@@ -386,8 +385,7 @@ fn currents_are_the_motors_torques_in_amperes() {
         }
     }
     let text = csv(&arm, Logged::Torque(Side::Current), &[currents], &[]);
-    let motions: Vec<_> = arm.joints.iter().map(|joint| joint.motion).collect();
-    let log = Log::from_bytes("log.csv", text.as_bytes(), &motions, &Names::default()).unwrap();
+    let log = Log::of_arm(&arm, "log.csv", &text).unwrap();
     assert!(log.has(Signal::Current) && !log.has(Signal::Torque) && log.side.is_none());
 }
 

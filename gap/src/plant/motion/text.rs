@@ -4,7 +4,10 @@ use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
 use super::{Logged, Recorded, Side};
-use crate::plant::text::{Columns, quoted};
+use crate::io::{Columns, digits, quoted};
+
+/// Digits behind the point: finer than what any sensor says.
+const DIGITS: usize = 9;
 
 /// A log: comment lines, a header with SI units, and one line per sample. `run` and `payload` stand
 /// there where there are several, and where something is held.
@@ -18,7 +21,7 @@ pub fn csv(arm: &Arm, logged: Logged, runs: &[Recorded], comments: &[String]) ->
         Logged::Position => ("q_cmd", ["rad", "m"], None),
     };
     let side = side.map(|side| format!("torque_side = {side}"));
-    let mut columns: Columns<'_, (&Recorded, usize)> = Columns::new();
+    let mut columns: Columns<'_, (&Recorded, usize)> = Columns::default();
     columns.add("t[s]", |(run, k)| format!("{:.6}", run.t[*k]));
     if runs.len() > 1 {
         columns.add("run", |(run, _)| run.run.to_string());
@@ -32,17 +35,11 @@ pub fn csv(arm: &Arm, logged: Logged, runs: &[Recorded], comments: &[String]) ->
     for (name, units, signal) in [("q", ["rad", "m"], q), (beside, units, driven)] {
         for (j, joint) in arm.joints.iter().enumerate() {
             let unit = units[usize::from(joint.motion == Motion::Prismatic)];
-            columns
-                .add(format!("{name}{}[{unit}]", j + 1), move |(run, k)| short(signal(run)[j][*k]));
+            columns.add(format!("{name}{}[{unit}]", j + 1), move |(run, k)| {
+                digits(signal(run)[j][*k], DIGITS)
+            });
         }
     }
     let samples = runs.iter().flat_map(|run| (0..run.t.len()).map(move |k| (run, k)));
     columns.text(comments.iter().chain(&side), samples)
-}
-
-/// Nine digits: finer than what any sensor says.
-fn short(value: f64) -> String {
-    let text = format!("{value:.9}");
-    let text = text.trim_end_matches('0').trim_end_matches('.');
-    if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }

@@ -33,7 +33,7 @@ use crate::plant::{Frames, Noise, PlantError};
 use crate::whole::Whole;
 
 /// What kind of case.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Kind {
     /// No effect at all.

@@ -9,9 +9,9 @@ use super::rigid::Rigid;
 use super::run::{self, Planted, known_to};
 use super::{Kind, Motion, Plan, WithholdError};
 use crate::effects::Catalogue;
-use crate::log::{Domain, Log, LogDiagnosis, LogOptions, Names, diagnose};
+use crate::log::{Domain, Log, LogDiagnosis, LogOptions, diagnose};
 use crate::motion::Course;
-use crate::plant::motion::{Law, Logged, MotionError, MotionTruth, MovingPlant, Spot, csv, known};
+use crate::plant::motion::{Law, Logged, MotionError, MotionTruth, MovingPlant, Spot, known};
 use crate::rng::Rng;
 
 /// An effect of which other masses can do all but this part does not show.
@@ -181,16 +181,14 @@ impl<'a> Bench<'a> {
 
     /// The log as a file.
     fn text(&self, truths: &[MotionTruth], seed: u64) -> Result<String, MotionError> {
-        let runs = plant(self.plan, self.own, truths)?.record(self.own.stages, seed)?;
-        Ok(csv(self.plan.arm, self.own.logged, &runs, &[]))
+        plant(self.plan, self.own, truths)?.text(self.own.stages, seed)
     }
 
     /// What the diagnosis says of a file.
     fn diagnosed(&self, text: &str, options: &LogOptions) -> Result<Verdict, String> {
         let arm = self.plan.arm;
-        let motions: Vec<_> = arm.joints.iter().map(|joint| joint.motion).collect();
-        let log = Log::from_bytes("withheld", text.as_bytes(), &motions, &Names::default());
-        let found = diagnose(arm, &log.map_err(|error| error.to_string())?, options);
+        let log = Log::of_arm(arm, "withheld", text).map_err(|error| error.to_string())?;
+        let found = diagnose(arm, &log, options);
         Ok(Verdict::of_log(&found.map_err(|error| error.to_string())?))
     }
 

@@ -1,13 +1,13 @@
 //! The result of the withheld check, as it is written.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use statrs::distribution::{ContinuousCDF, Normal};
 
 use super::Kind;
 use crate::report::Finding;
 
 /// The result.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Report {
     /// The version that made it.
     pub stiffarm: String,
@@ -33,12 +33,12 @@ pub struct Report {
     /// What is left after the findings, where the diagnosis knows the effects.
     pub after: After,
     /// How far the gap shrank at poses never met, where that could be said.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shrink: Option<Shrunk>,
     /// Of single effects: what was named first how often, most frequent first.
     pub confusion: Vec<Confusion>,
     /// Effects that were to be put in and show nothing on this design at any place.
-    pub cannot_plant: Vec<&'static str>,
+    pub cannot_plant: Vec<String>,
     /// Diagnoses that ended with an error; they count as cases without findings.
     pub failed: usize,
     /// Every case.
@@ -46,7 +46,7 @@ pub struct Report {
 }
 
 /// What is measured, and how well.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum Facts {
     /// An arm at rest.
@@ -78,7 +78,7 @@ pub enum Facts {
 }
 
 /// An effect at a place.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Named {
     /// Identifier of the effect.
     pub effect: String,
@@ -100,7 +100,7 @@ impl Named {
 }
 
 /// How often.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Rate {
     /// So often.
     pub hits: usize,
@@ -145,7 +145,7 @@ impl Rate {
 }
 
 /// Cases with one effect.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Single {
     /// The effect and its place were the first finding.
     pub first_named: Rate,
@@ -159,14 +159,14 @@ pub struct Single {
 }
 
 /// Cases with two effects.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Pairs {
     /// Each was in the set of a finding of its own.
     pub both_in_sets: Rate,
 }
 
 /// Cases whose effect the diagnosis does not know.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Removed {
     /// Something was unexplained.
     pub flagged: Rate,
@@ -179,7 +179,7 @@ pub struct Removed {
 }
 
 /// What is left after the findings.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct After {
     /// The held-out gap is at most 1.2 times the noise.
     pub within_1_2_of_noise: Rate,
@@ -188,7 +188,7 @@ pub struct After {
 }
 
 /// Predicted against real.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Shrunk {
     /// The real shrink lay in the predicted 95 % interval; of cases with one effect and one
     /// finding.
@@ -198,7 +198,7 @@ pub struct Shrunk {
 }
 
 /// How often an effect was taken for another.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Confusion {
     /// What was put in.
     pub truth: String,
@@ -211,7 +211,7 @@ pub struct Confusion {
 }
 
 /// What a diagnosis says, as far as it is compared with the truth.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Verdict {
     /// Of each finding, in the order in which they were added: itself, then the alternatives that
     /// the data cannot tell from it.
@@ -226,7 +226,7 @@ pub struct Verdict {
 }
 
 /// What is left with the findings.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum Residual {
     /// Of a campaign.
@@ -248,7 +248,7 @@ pub enum Residual {
 }
 
 /// One case.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Case {
     /// What kind of case.
     pub kind: Kind,
@@ -262,15 +262,15 @@ pub struct Case {
     pub verdict: Option<Verdict>,
     /// Of an effect in a log that the diagnosis does not know: what it said of the same log without
     /// the effect.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub without: Option<Verdict>,
     /// Why it said nothing.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub error: Option<String>,
     /// Held-out gap of a campaign with the findings in multiples of the noise.
     pub after: Option<f64>,
     /// How far the gap shrank at poses never met.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub realised: Option<f64>,
 }
 

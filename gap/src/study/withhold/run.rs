@@ -97,7 +97,8 @@ fn run<B: Bench>(
     match first.filter(|_| cases.iter().all(|case| case.verdict.is_none())) {
         Some(reason) => Err(WithholdError::Diagnose(reason)),
         None => {
-            let hidden = hidden.into_iter().map(B::identifier).collect();
+            let hidden =
+                hidden.into_iter().map(|effect| B::identifier(effect).to_owned()).collect();
             Ok(summary::report(plan, cases, hidden))
         }
     }

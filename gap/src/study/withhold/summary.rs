@@ -11,7 +11,7 @@ use super::report::{
 use super::{Experiment, Kind, Plan};
 
 /// The result of some cases.
-pub(super) fn report(plan: &Plan<'_>, cases: Vec<Case>, cannot_plant: Vec<&'static str>) -> Report {
+pub(super) fn report(plan: &Plan<'_>, cases: Vec<Case>, cannot_plant: Vec<String>) -> Report {
     let of = |kind: Kind| cases.iter().filter(move |case| case.kind == kind);
     let at_rest = matches!(plan.experiment, Experiment::Campaign(_));
     // Of a log nothing says where an effect is that the diagnosis does not know, and how much noise

@@ -56,6 +56,10 @@ fn springs_are_found_where_they_are() {
     assert_eq!(report.single.in_set.rate, Some(1.0));
     assert!(report.after.median.unwrap() < 1.2);
     assert!(report.cannot_plant.is_empty());
+    let read: Report = serde_json::from_str(&serde_json::to_string(&report).unwrap()).unwrap();
+    assert_eq!((read.single, &read.confusion), (report.single, &report.confusion));
+    let first = |report: &Report| report.cases[0].clone();
+    assert_eq!(first(&read).labels, first(&report).labels);
     for case in report.cases.iter().filter(|case| case.kind == Kind::Single) {
         assert!((7.2..22.0).contains(&case.multiples[0]), "{case:?}");
         let realised = case.realised.unwrap();

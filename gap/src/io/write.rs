@@ -4,19 +4,28 @@
 type Column<'a, R> = (String, Box<dyn Fn(&R) -> String + 'a>);
 
 /// The columns of a file.
-pub(super) struct Columns<'a, R>(Vec<Column<'a, R>>);
+pub struct Columns<'a, R>(Vec<Column<'a, R>>);
 
-impl<'a, R> Columns<'a, R> {
-    pub(super) fn new() -> Columns<'a, R> {
+impl<R> core::fmt::Debug for Columns<'_, R> {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.debug_list().entries(self.0.iter().map(|(header, _)| header)).finish()
+    }
+}
+
+impl<R> Default for Columns<'_, R> {
+    fn default() -> Self {
         Columns(Vec::new())
     }
+}
 
-    pub(super) fn add(&mut self, header: impl Into<String>, cell: impl Fn(&R) -> String + 'a) {
+impl<'a, R> Columns<'a, R> {
+    /// One more, behind the others.
+    pub fn add(&mut self, header: impl Into<String>, cell: impl Fn(&R) -> String + 'a) {
         self.0.push((header.into(), Box::new(cell)));
     }
 
     /// The file of these rows.
-    pub(super) fn text(
+    pub fn text(
         &self,
         comments: impl IntoIterator<Item: AsRef<str>>,
         rows: impl Iterator<Item = R>,
@@ -40,6 +49,13 @@ pub fn number(value: f64) -> String {
     } else {
         value.to_string()
     }
+}
+
+/// A number as a cell, with so many digits behind the point at most.
+pub fn digits(value: f64, most: usize) -> String {
+    let text = format!("{value:.most$}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
 /// An id as a cell, empty of none: in quotation marks where it needs them.
