@@ -18,30 +18,25 @@ use crate::report::log::JointGap;
 use crate::report::{Alternative, Finding, HeldOutGap, Left, Parameter};
 use crate::shrink::Shrink;
 
-/// What was left before each term.
+/// What was left before anything was found.
 #[derive(Default)]
-pub(super) struct History {
-    /// Of each joint, before any.
-    pub(super) before: Vec<f64>,
-    /// Of all joints, before each that was added, by effect and place, and at the end.
-    pub(super) left: Vec<(Vec<(&'static str, Spot)>, f64)>,
-    /// What the model as it was first showed nothing of.
+pub(super) struct Before {
+    /// Of each joint.
+    pub(super) left: Vec<f64>,
+    /// What the model shows nothing of.
     pub(super) hidden: Vec<(&'static dyn LogEffect, Spot)>,
-    /// Values of the links' columns, where they are fitted, before any.
+    /// Values of the links' columns, where they are fitted.
     pub(super) alone: Vec<f64>,
 }
 
-impl History {
-    /// Notes what a round leaves.
-    pub(super) fn note(&mut self, dict: &Dictionary<'_>, told: &Told<'_>, round: &Round) {
-        let unseen = Unseen::of(dict, &round.now.fit, &round.now.sizes, &round.blocks).sizes;
-        let names = round.now.fit.terms.iter().map(|t| (t.effect.identifier(), t.spot));
-        self.left.push((names.collect(), told.mean(&unseen)));
-        if self.before.is_empty() {
-            self.before = unseen;
-            self.alone.clone_from(&round.now.fit.values);
-            let blind = round.asked.candidates.iter().filter(|c| !c.seen);
-            self.hidden = blind.map(|c| (c.term.effect, c.term.spot)).collect();
+impl Before {
+    /// What the first round leaves.
+    pub(super) fn of(dict: &Dictionary<'_>, first: &Round) -> Before {
+        let blind = first.asked.candidates.iter().filter(|c| !c.seen);
+        Before {
+            left: Unseen::of(dict, &first.now.fit, &first.now.sizes, &first.blocks).sizes,
+            hidden: blind.map(|c| (c.term.effect, c.term.spot)).collect(),
+            alone: first.now.fit.values.clone(),
         }
     }
 }
@@ -125,7 +120,7 @@ impl Told<'_> {
     }
 
     /// Mean over the joints of what is left, as a part of their sizes.
-    fn mean(&self, left: &[f64]) -> f64 {
+    pub(super) fn mean(&self, left: &[f64]) -> f64 {
         let own = left.iter().zip(&self.sizes).zip(self.case.left_out);
         let parts: Vec<f64> =
             own.filter(|(_, out)| !**out).map(|((left, whole), _)| left / whole).collect();
@@ -140,10 +135,10 @@ impl Told<'_> {
         }
     }
 
-    /// In the order in which they were added.
+    /// Each with what is `left` of the joints before it, and after the last.
     pub(super) fn findings(
         &self,
-        left: &[(Vec<(&'static str, Spot)>, f64)],
+        left: &[f64],
         verdict: &Verdict,
         unseen: &Unseen,
         by_command: Option<&[f64]>,
@@ -152,19 +147,14 @@ impl Told<'_> {
             - verdict.now.fit.terms.iter().map(|t| t.values.len()).sum::<usize>();
         let mut widths = unseen.half_widths[base..].iter();
         let mut told_by_command = by_command.into_iter().flatten().copied();
-        let mut tell = |judged: &Judged| {
+        let mut tell = |(judged, left_by): (&Judged, &[f64])| {
             let term = &judged.term;
-            let name = (term.effect.identifier(), term.spot);
-            // The first round that had it, and the one before.
-            let with = left.iter().position(|(names, _)| names.contains(&name)).unwrap_or(1);
             let numbers =
                 term.effect.parameters().iter().zip(self.case.at_least_none(term)).zip(&mut widths);
-            let held_out = HeldOutGap::InMotion {
-                held_out_before: left[with - 1].1,
-                held_out_after: left[with].1,
-            };
+            let held_out =
+                HeldOutGap::InMotion { held_out_before: left_by[0], held_out_after: left_by[1] };
             Finding {
-                effect: name.0.into(),
+                effect: term.effect.identifier().into(),
                 place: self.place(term.spot),
                 parameters: numbers
                     .map(|((parameter, value), width)| Parameter {
@@ -175,7 +165,7 @@ impl Told<'_> {
                         by_command: told_by_command.next(),
                     })
                     .collect(),
-                share: held_out.share(left[0].1),
+                share: held_out.share(left[0]),
                 held_out,
                 p_value: judged.p_value,
                 stability: None,
@@ -184,6 +174,6 @@ impl Told<'_> {
                     .then(|| Some(term.effect.facts().separated_by.to_owned())),
             }
         };
-        verdict.findings.iter().map(&mut tell).collect()
+        verdict.findings.iter().zip(left.windows(2)).map(&mut tell).collect()
     }
 }

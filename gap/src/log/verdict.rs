@@ -1,7 +1,5 @@
 //! From a log to what is said of it.
 
-use std::cell::RefCell;
-
 use stiffarm_kernels::generic::Arm;
 
 use super::identifiability::hidden;
@@ -23,7 +21,7 @@ use super::search::springs::Springs;
 use super::search::unseen::Unseen;
 use super::search::{self, Round, Search, effective};
 use super::signal::Signals;
-use super::told::{History, Told};
+use super::told::{Before, Told};
 use crate::measurement::Body;
 use crate::report::log::{Evidence, Filter, LogDiagnosis, Unexplained};
 
@@ -141,21 +139,21 @@ pub fn diagnosed_with(
     }
     let mut dict = Dictionary::of(&case, &simple, &wanted, 1);
     let told = Told { case: &case, arm, kind: case.kind, current, sizes: sizes(&dict) };
-    let history = RefCell::new(History::default());
+    let mut before: Option<Before> = None;
     let mut terms: Vec<Term> = Vec::new();
     if let Some(late) = dict.late().filter(|_| simple.delay != 0.0) {
         let sizes = dict.sizes(&[dict.left(&links, &[])], &[1.0]);
         let offers: Vec<usize> = (0..dict.offers.len()).collect();
         let none = Search::new(&dict, &links, &offers, options.seed).round(&[], &sizes);
-        history.borrow_mut().note(&dict, &told, &none);
+        before = Some(Before::of(&dict, &none));
         terms.push(late);
     }
     let mut again = 0;
-    let verdict = loop {
+    let (verdict, left) = loop {
         let offers: Vec<usize> = (0..dict.offers.len()).collect();
         let mut each = |round: &Round| {
             each(round.now.fit.terms.len());
-            history.borrow_mut().note(&dict, &told, round);
+            before.get_or_insert_with(|| Before::of(&dict, round));
         };
         let search = Search::new(&dict, &links, &offers, options.seed);
         let last = search.run(&terms, &mut each);
@@ -165,14 +163,16 @@ pub fn diagnosed_with(
         let better = of_loads && links == Links::Free;
         let better = better && simple.moved_to(&dict, &verdict.now.fit.values[..dict.base]);
         if again == AGAIN || !(better || moved_on(&dict, &verdict.now.fit.terms)) {
-            break verdict;
+            break search.ordered(verdict, |left| told.mean(left));
         }
         again += 1;
         let more = about(&wanted, &verdict.now.fit.terms);
         dict = Dictionary::of(&case, &simple, &more, 1);
         terms = verdict.now.fit.terms.iter().map(|term| again_of(&dict, term)).collect();
     };
-    let History { before, left, hidden: unseen, alone } = history.into_inner();
+    let Before { left: before, hidden: unseen, alone } = before.unwrap_or_default();
+    let left: Vec<f64> =
+        core::iter::once(&before).chain(&left).map(|left| told.mean(left)).collect();
     let after = Unseen::of(&dict, &verdict.now.fit, &verdict.now.sizes, &verdict.blocks);
     let blocks = &verdict.blocks;
     let (first, spread) = if verdict.findings.is_empty() {

@@ -18,6 +18,7 @@ mod friction;
 pub mod judge;
 pub mod nested;
 pub mod normal_equations;
+mod order;
 pub mod residual;
 pub mod ripples;
 pub mod segments;
