@@ -20,6 +20,7 @@ pub(crate) mod pi;
 pub(crate) mod problem;
 pub(crate) mod quantity;
 mod section;
+mod sliding;
 pub(crate) mod space;
 pub(crate) mod suggest;
 pub(crate) mod units;
@@ -32,6 +33,7 @@ pub use crate::frontends::tokens::{
 pub use crate::frontends::urdf;
 pub use crate::schema::Symbol;
 pub use closed_form::{ClosedForm, Family, Position};
+pub use sliding::Sliding;
 pub use diagnostic::{FileError, Located, Warning};
 pub use dimension::Dimension;
 pub use frames::{Asked, Refused, Wanted};

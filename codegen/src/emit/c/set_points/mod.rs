@@ -6,7 +6,7 @@ use stiffarm_kernels::Steps;
 
 use super::Module;
 use super::Sines;
-use crate::derive::{BRANCHES, steps};
+use crate::derive::steps;
 use crate::emit::lines::Lines;
 use crate::ir::Extra;
 use crate::robot::{CLOSED_FORM, GIVES};
@@ -26,6 +26,11 @@ struct Text {
     moves: bool,
     margin: Option<[f64; 2]>,
     steps: Steps,
+    /// Joints.
+    n: usize,
+    branches: usize,
+    /// The joint that is given.
+    held: Option<usize>,
 }
 
 impl Text {
@@ -58,6 +63,9 @@ impl Text {
             moves: module.ir.readings.moves,
             margin: margin.map(|margin| margin.map(|most| most.to_f64())),
             steps: steps(module.ir.robot, form),
+            n: module.ir.robot.dof(),
+            branches: form.branches(),
+            held: form.given,
             suffix: module.language.suffix(),
             name,
             upper,
@@ -86,7 +94,7 @@ impl Text {
 /// The declarations of the header.
 pub(super) fn declared(module: &Module, out: &mut Lines) {
     let Some(text) = Text::of(module) else { return };
-    let Text { name, real, steps: Steps { loaded, .. }, .. } = &text;
+    let Text { name, real, steps: Steps { loaded, .. }, branches, .. } = &text;
     let head = text.head();
     out.verbatim(&format!(
         "
@@ -94,8 +102,8 @@ pub(super) fn declared(module: &Module, out: &mut Lines) {
 typedef struct
 {{
     {real} q[{size}];
-    {real} distance[{BRANCHES}];
-    {real} tilt[{BRANCHES}];
+    {real} distance[{branches}];
+    {real} tilt[{branches}];
 }} {name}_set_points_t;
 
 /* The readings at which the loaded arm's tool stands at a pose, at rest under a wrench and its weights, branch by
@@ -106,18 +114,18 @@ typedef struct
  * and moment on the tool, in N and N*m. */
 {head};
 ",
-        size = 6 * BRANCHES,
+        size = text.n * branches,
     ));
 }
 
 /// The functions of the source.
 pub(super) fn written(module: &Module, out: &mut Lines) {
     let Some(text) = Text::of(module) else { return };
-    let Text { name, real, given: [parameters, _], .. } = &text;
+    let Text { name, real, given: [parameters, _], n, .. } = &text;
     out.blank();
     out.comment(&["The posture at joint values, not at readings.".to_owned()]);
     out.code(&format!(
-        "static void posture_at(const {real} q[6]{parameters}, {name}_posture_t *posture)"
+        "static void posture_at(const {real} q[{n}]{parameters}, {name}_posture_t *posture)"
     ));
     out.braces(|out| module.fields(out, &module.ir.posture, false));
     if text.steps.loaded > 0 {
