@@ -7,7 +7,9 @@ mod steps;
 use nalgebra::{Isometry3, Vector3, Vector6};
 
 use arms::{Arm, Branch, FAMILIES, OTHERS, collection, random};
-use stiffarm_codegen::robot::{FileError, Motion, Robot};
+use stiffarm_codegen::robot::{
+    Angle, Convention, Family, FileError, Motion, Robot, Value,
+};
 use stiffarm_draws::Draws;
 
 /// From the pose to another: translation and rotation vector, base axes.
@@ -136,13 +138,14 @@ fn an_arm_without_a_closed_form_is_refused() {
     refused(with([plain[0], "alpha = \"pi/2\"", plain[2]]), "axes 1, 2, 3 meet in a point");
 }
 
+/// Postures of every arm are branches of their poses: so many of each of the collection, and 50 of so many of each kind.
+///
 /// Errors: of the postures they have been below 2e-7 at most, near a double root, and of the poses 1e-11.
-#[test]
-fn postures_are_branches_of_their_poses() {
+fn postures_of(count: usize, kinds: usize) {
     let mut draws = Draws::new(1);
     let [mut short, mut off_by_roots] = [0, 0];
-    for arm in all(40, &mut draws) {
-        for _ in 0..if arm.name.contains('\n') { 50 } else { 2000 } {
+    for arm in all(kinds, &mut draws) {
+        for _ in 0..if arm.name.contains('\n') { 50 } else { count } {
             let q = arm.posture(&mut draws);
             let near = arm.near(&q, &mut draws);
             let (reached, _) = check(&arm, &arm.pose(&q), &near);
@@ -160,6 +163,65 @@ fn postures_are_branches_of_their_poses() {
     // Near a double root, and nowhere else.
     println!("{off_by_roots} of {short} poses of fewer joints are missed by more than 1e-10");
     assert!(off_by_roots * 1000 < short, "{off_by_roots} of {short}");
+}
+
+#[test]
+fn postures_are_branches_of_their_poses() {
+    postures_of(2000, 40);
+}
+
+#[test]
+#[ignore = "takes minutes"]
+fn a_hundred_thousand_postures_are_branches_of_their_poses() {
+    postures_of(100_000, 400);
+}
+
+/// The tool on the last axis, at a distance from the last frame.
+fn on_axis(arm: &Arm) -> Arm {
+    let mut robot = arm.robot.clone();
+    let [_, _, z] = &arm.robot.tool.translation;
+    robot.tool.translation = [Value::ZERO, Value::ZERO, z.clone()];
+    if let (Convention::Standard, Some(last)) = (robot.convention, robot.joints.last_mut()) {
+        (last.a, last.alpha) = (Value::ZERO, Angle::ZERO);
+    }
+    Arm::new(&robot)
+}
+
+/// Fewer joints than six bring the tool's origin to a pose that they cannot have, and as much of its orientation as they can: a
+/// turn about any axis is missed by no more than it is.
+#[test]
+fn positions_come_first() {
+    let mut draws = Draws::new(6);
+    for family in OTHERS {
+        let arm = random(family, &mut draws);
+        let arm = match arm.form.family {
+            Family::Wrist { behind: 0, .. } | Family::ThreeParallel { behind: 0, .. } => arm,
+            Family::Wrist { behind: 1, .. } | Family::ThreeParallel { behind: 1, .. } => {
+                on_axis(&arm)
+            }
+            _ => continue,
+        };
+        let plane = arm.robot.dof() == 3
+            && matches!(arm.form.family, Family::ThreeParallel { before: false, .. })
+            || family.0 == "three parallel, the last a roll";
+        let (mut met, mut near) = (0, 0);
+        for _ in 0..200 {
+            let q = arm.posture(&mut draws);
+            let mut pose = arm.pose(&q);
+            let turn = 0.02;
+            let by = Vector3::from(draws.array::<3>(-1.0, 1.0)).normalize() * turn;
+            pose.rotation = nalgebra::UnitQuaternion::from_scaled_axis(by) * pose.rotation;
+            let branches = arm.branches(&pose, &q);
+            let nearest = branches.iter().min_by(|a, b| a.tilt.total_cmp(&b.tilt));
+            let nearest = nearest.expect("a branch");
+            met += usize::from(nearest.distance < 1e-9);
+            near += usize::from(nearest.tilt < 1.5 * turn);
+        }
+        // The others are at the end of their reach. Of a plane's arms the roll lifts the tool.
+        println!("{}: {met} met, {near} near of 200", family.0);
+        assert!(plane || met > 160, "{}: {met}", family.0);
+        assert!(near > 120, "{}: {near}", family.0);
+    }
 }
 
 /// Joints at whole quarter turns, of which the axes are aligned in all ways, and within 1e-12 and 1e-9 of them.
@@ -202,8 +264,14 @@ fn aligned_postures_are_reached_and_free_joints_stay() {
             // A double root is known to the square root of rounding.
             if by == 0.0 && only.is_some() {
                 assert!(reached > 0 && error < within(&arm), "{}: {q:?}: {error:e}", arm.name);
+                // Next to a second singularity a joint that is free but for rounding is found, and not left.
+                let [second, most] = [values[1], values.max()];
                 let off = from_branches(&arm, &q, &q);
-                assert!(off < 1e-5, "{}: {q:?}: {off:e}", arm.name);
+                assert!(
+                    off < 1e-5 || n > 1 && second < 0.03 * most,
+                    "{}: {q:?}: {off:e}",
+                    arm.name
+                );
             }
         }
     }
@@ -234,15 +302,14 @@ fn poses_that_are_not_reached_are_missed_by_what_is_told() {
     }
 }
 
-/// What the reference implementation finds by search, and no other, is what the branches reach.
-#[test]
-fn there_are_no_other_solutions() {
+/// What the reference implementation finds by search, and no other, is what the branches reach, at so many poses of each arm.
+fn solutions_at(poses: usize) {
     let mut draws = Draws::new(3);
     let mut arms = collection();
     arms.extend(FAMILIES.map(|family| random(family, &mut draws)));
     arms.extend(OTHERS.map(|family| random(family, &mut draws)));
     for arm in arms {
-        for _ in 0..2 {
+        for _ in 0..poses {
             let q = arm.posture(&mut draws);
             let pose = arm.pose(&q);
             let (inner, _) = arm.inner(&q);
@@ -271,4 +338,15 @@ fn there_are_no_other_solutions() {
             );
         }
     }
+}
+
+#[test]
+fn there_are_no_other_solutions() {
+    solutions_at(2);
+}
+
+#[test]
+#[ignore = "takes minutes"]
+fn there_are_no_other_solutions_at_fifty_poses() {
+    solutions_at(50);
 }

@@ -23,6 +23,8 @@ struct Text {
     /// The closed form's function.
     closed: &'static str,
     links: bool,
+    /// Whether the function of what gives takes a wrench.
+    loads: bool,
     moves: bool,
     margin: Option<[f64; 2]>,
     steps: Steps,
@@ -44,7 +46,8 @@ impl Text {
         let (name, real) = (module.name().to_owned(), module.language.real());
         let upper = name.to_uppercase();
         let find = |called: &str| module.ir.functions().find(|f| f.name() == called);
-        let tool = find(GIVES)?.blocks().last()?;
+        let gives = find(GIVES)?;
+        let tool = gives.blocks().last()?;
         let deflection = find(crate::robot::DEFLECTION.name())?;
         let margin = deflection.solves().find_map(|solve| solve.margin);
         let extras = &module.ir.readings.extras;
@@ -60,6 +63,7 @@ impl Text {
         Some(Text {
             closed: if exact { crate::robot::INVERSE_KINEMATICS } else { CLOSED_FORM },
             links: tool.entries.iter().any(|e| !e.is_zero()),
+            loads: !gives.arguments.is_empty(),
             moves: module.ir.readings.moves,
             margin: margin.map(|margin| margin.map(|most| most.to_f64())),
             steps: steps(module.ir.robot, form),

@@ -209,9 +209,10 @@ pub(super) fn at_rest(text: &Text) -> String {
     }}"
         ),
     };
+    let load = if text.loads { ", wrench" } else { "" };
     let gives = match text.links {
         true => format!(
-            "\n    {name}_gives_t gives;\n\n    {name}_given_gives(posture, wrench, &gives);\n    \
+            "\n    {name}_gives_t gives;\n\n    {name}_given_gives(posture{load}, &gives);\n    \
              {name}_given_pose(posture, pose);\n    displace(pose, gives.tool);"
         ),
         false => format!("\n    (void)wrench;\n    {name}_given_pose(posture, pose);"),
@@ -274,7 +275,7 @@ static {name}_status_t follow(const {real} begin[{n}]{parameters}, const {real} 
     (void)count;
     (void)memcpy(joints, begin, sizeof joints);{stepped}
     posture_at(joints{given}, &posture);
-{bears}    {name}_given_gives(&posture, wrench, &give);
+{bears}    {name}_given_gives(&posture{load}, &give);
     for (k = 0U; k < {n}U; k++)
     {{
         meant[k] = joints[k] - give.joints[k];
