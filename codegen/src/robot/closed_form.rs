@@ -5,6 +5,7 @@
 
 use super::frames::Refused;
 use super::model::{Angle, Convention, Joint, Motion, Robot, Value};
+use super::nearest::OFF;
 use super::sliding::{self, Sliding};
 
 /// The closed form of an arm.
@@ -52,6 +53,8 @@ pub enum Position {
     FirstMeetsSecond,
     /// 2 and 3 meet.
     SecondMeetsThird,
+    /// None of them is near being parallel to the next or meeting it.
+    General,
     /// Some of them are prismatic.
     Sliding(Sliding),
 }
@@ -82,6 +85,7 @@ impl ClosedForm {
                     Position::FirstParallelSecond => format!("{} are parallel", axes(&[1, 2])),
                     Position::FirstMeetsSecond => format!("{} meet", axes(&[1, 2])),
                     Position::SecondMeetsThird => format!("{} meet", axes(&[2, 3])),
+                    Position::General => format!("{} in general position", axes(&[1, 2, 3])),
                     Position::Sliding(sliding) => {
                         format!("{} {}", axes(&[1, 2, 3]), sliding.words())
                     }
@@ -148,6 +152,8 @@ pub(super) struct Chain<'r> {
     pub joints: Vec<&'r Joint>,
     /// Whether the tool's origin is on the last axis, and at the last frame's origin.
     pub tool: [bool; 2],
+    /// The arm's size, m, if the table has no parameters.
+    size: Option<f64>,
 }
 
 impl<'r> Chain<'r> {
@@ -158,6 +164,7 @@ impl<'r> Chain<'r> {
             alpha: links.iter().map(|row| &row.alpha).collect(),
             joints: robot.joints[joints].iter().collect(),
             tool: robot.tool_on_axis(),
+            size: robot.symbols().is_empty().then(|| robot.size()),
         }
     }
 
@@ -176,6 +183,17 @@ impl<'r> Chain<'r> {
     /// Whether axes k and k + 1 meet and are not parallel, from 1.
     fn meets(&self, k: usize) -> bool {
         self.a[k - 1].is_zero() && !self.parallel(k)
+    }
+
+    /// Whether axes k and k + 1 are nowhere near being parallel or meeting, from 1, in numbers.
+    fn general(&self, k: usize) -> bool {
+        let (a, alpha) = (self.a[k - 1].number(), self.alpha[k - 1].radians());
+        match (self.size, a, alpha) {
+            (Some(size), Some(a), Some(alpha)) => {
+                a.to_f64().abs() > OFF * size && libm::sin(alpha).abs() > OFF
+            }
+            _ => false,
+        }
     }
 
     /// Whether the point that the joints behind the third only turn about is on axis 3.
@@ -210,8 +228,7 @@ impl Robot {
     /// [`Refused`] where it has none that is known: what stands in the way.
     pub fn closed_form(&self) -> Result<ClosedForm, Refused> {
         const FAMILIES: &str = "a closed form is known of six joints, of which the last three axes meet in a point and \
-                                1 and 2, or 2 and 3, are parallel or meet, or some of the first three are prismatic; or \
-                                of which 2, 3, 4 are parallel and 5 meets 6; or the same from tip to base; of seven that \
+                                the first three turn, or some of them slide; or of which 2, 3, 4 are parallel and 5 meets 6; or the same from tip to base; of seven that \
                                 are such an arm without the first or the last; and of fewer (docs/inverse.md)";
         let no = |what: String| {
             let message = format!("no closed form of the inverse kinematics: {what}");
@@ -223,19 +240,17 @@ impl Robot {
             }
         }
         let n = self.dof();
-        match n {
-            2..=6 => self.form_of(0..n, None).map_err(no),
-            7 => {
-                let last = self.form_of(0..6, Some(6));
-                let form = last.or_else(|last| {
-                    self.form_of(1..7, Some(0)).map_err(|first| {
-                        format!("with joint 7 given, {last}; with joint 1 given, {first}")
-                    })
-                });
-                form.map_err(no)
-            }
-            _ => Err(no(format!("the arm has {n} joints"))),
-        }
+        // Axes in general position take many more operations.
+        let form = |general: bool| match n {
+            2..=6 => self.form_of(0..n, None, general),
+            7 => self.form_of(0..6, Some(6), general).or_else(|last| {
+                self.form_of(1..7, Some(0), general).map_err(|first| {
+                    format!("with joint 7 given, {last}; with joint 1 given, {first}")
+                })
+            }),
+            _ => Err(format!("the arm has {n} joints")),
+        };
+        form(false).or_else(|_| form(true)).map_err(no)
     }
 
     /// Of neighbouring joints, with another one given.
@@ -243,10 +258,12 @@ impl Robot {
         &self,
         joints: core::ops::Range<usize>,
         given: Option<usize>,
+        general: bool,
     ) -> Result<ClosedForm, String> {
         let first = joints.start;
         let chain = || Chain::new(self, joints.clone());
         let six = joints.len() == 6;
+        let family = |chain: &Chain| family(chain, general);
         match (family(&chain()), six.then(|| family(&chain().reversed()))) {
             (Ok(family), _) => Ok(ClosedForm { given, reversed: false, family }),
             (_, Some(Ok(family))) => Ok(ClosedForm { given, reversed: true, family }),
@@ -282,7 +299,7 @@ impl Robot {
     }
 }
 
-fn family(chain: &Chain) -> Result<Family, &'static str> {
+fn family(chain: &Chain, general: bool) -> Result<Family, &'static str> {
     let n = chain.joints.len();
     if n == 2 {
         let two = chain.turns(1..=2) && chain.parallel(1) && !chain.a[0].is_zero();
@@ -305,7 +322,7 @@ fn family(chain: &Chain) -> Result<Family, &'static str> {
         _ => {}
     }
     let position = match chain.turns(1..=3) {
-        true => turning(chain)?,
+        true => turning(chain, general)?,
         false => Position::Sliding(sliding::of(chain)?),
     };
     Ok(Family::Wrist { position, behind: n - 3 })
@@ -342,7 +359,7 @@ fn three_parallel(chain: &Chain) -> Result<Option<Family>, &'static str> {
 }
 
 /// What three joints that turn are.
-fn turning(chain: &Chain) -> Result<Position, &'static str> {
+fn turning(chain: &Chain, general: bool) -> Result<Position, &'static str> {
     if chain.point_on_third() {
         return Err(match chain.joints.len() {
             3 => "the tool's origin is on axis 3",
@@ -365,6 +382,7 @@ fn turning(chain: &Chain) -> Result<Position, &'static str> {
         () if chain.parallel(1) => Ok(Position::FirstParallelSecond),
         () if chain.meets(1) => Ok(Position::FirstMeetsSecond),
         () if chain.meets(2) => Ok(Position::SecondMeetsThird),
-        () => Err("of axes 1, 2, 3 none is parallel to the next or meets it"),
+        () if general && chain.general(1) && chain.general(2) => Ok(Position::General),
+        () => Err("of axes 1, 2, 3 none is parallel to the next or meets it, but one nearly is or does, or has a parameter"),
     }
 }

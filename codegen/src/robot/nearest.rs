@@ -10,7 +10,7 @@ use crate::number::Number;
 
 /// What of an arm's size, and of a radian, an entry may differ from that of the nearest table. Makers build to a tenth of
 /// it; at all of it, steps still lead from the one arm to the other (`codegen/tests/inverse/steps.rs`).
-const OFF: f64 = 1e-2;
+pub(super) const OFF: f64 = 1e-2;
 
 /// Angles between axes that are so near to quarter turns, rad, count as such in the nearest table: its closed form is then half
 /// as long. It is a few times what makers build to; an angle that is meant is left alone.
@@ -110,7 +110,7 @@ impl Robot {
                 Position::FirstParallelSecond => (&[4, 5], &[1]),
                 Position::FirstMeetsSecond => (&[1, 4, 5], &[]),
                 Position::SecondMeetsThird => (&[2, 4, 5], &[]),
-                Position::Sliding(_) => (&[4, 5], &[]),
+                Position::General | Position::Sliding(_) => (&[4, 5], &[]),
             },
         };
         meeting.iter().for_each(|k| table.joints[link(*k)].a = Value::ZERO);

@@ -172,7 +172,11 @@ pub const FAMILIES: [(&str, [&str; 6]); 12] = [
 ];
 
 /// The same of other joints than six that turn: a row that begins with `s` is that of a prismatic joint.
-pub const OTHERS: [(&str, &[&str]); 36] = [
+pub const OTHERS: [(&str, &[&str]); 40] = [
+    ("general", &["axa", "axa", "axa", "0xa", "0x0", "axa"]),
+    ("general, at right angles", &["ara", "ara", "ara", "0ra", "0r0", "ara"]),
+    ("general, reversed", &["0xa", "0x0", "axa", "axa", "axa", "axa"]),
+    ("general, short", &["axa", "axa", "axa"]),
     ("shoulder, elbow and wrist of a Panda", &["0ra", "0r0", "ara", "ara", "0ra", "ara", "ara"]),
     ("spherical shoulder and wrist", &["0ra", "0r0", "0ra", "0r0", "0ra", "0r0", "ara"]),
     ("spherical shoulder and wrist, oblique", &["0xa", "0x0", "0xa", "0xa", "0xa", "0x0", "axa"]),

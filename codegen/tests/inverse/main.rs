@@ -134,7 +134,7 @@ fn an_arm_without_a_closed_form_is_refused() {
     let beta = "a = 0.5, beta = 0.1";
     refused(with([plain[0], beta, plain[2]]), "the row of `joint 2` has a beta");
     let skew = "a = 0.5, alpha = 0.3";
-    refused(with(["a = 0.2, alpha = \"pi/2\"", skew, plain[2]]), "none is parallel to the next");
+    refused(with(["a = \"a1\", alpha = \"pi/2\"", skew, plain[2]]), "none is parallel to the next");
     refused(with([plain[0], "alpha = \"pi/2\"", plain[2]]), "axes 1, 2, 3 meet in a point");
 }
 

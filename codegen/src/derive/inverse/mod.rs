@@ -12,6 +12,7 @@ mod any;
 mod gives;
 mod layout;
 mod parallel;
+mod pieper;
 mod plane;
 mod position;
 mod sliding;

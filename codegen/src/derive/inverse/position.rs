@@ -2,9 +2,10 @@
 //!
 //! With `c` the point behind axis 3 and `r` the point from frame 0 moved by d_1,
 //! `r = Rz(θ_1) (a_1 x + Rx(α_1) g)`, `g = Rz(θ_2) f + d_2 z`, `f = a_2 x + Rx(α_2) (Rz(θ_3) c + d_3 z)`.
-//! Which equation has one unknown angle is for the special pair of axes to say (Pieper 1968).
+//! A special pair of axes makes an equation of one unknown angle (Pieper 1968).
 
 use super::layout::{Layout, Value, about_x, about_x_back, about_z_back};
+use super::pieper;
 use super::sliding;
 use super::subproblem::{
     Free, Pair, angle_between, square, turned, two_angles, two_angles_within,
@@ -64,6 +65,7 @@ pub(super) fn positions(arm: &mut Layout, position: Position, behind: usize) -> 
         Position::FirstParallelSecond => first_parallel_second(arm, &point),
         Position::FirstMeetsSecond => first_meets_second(arm, &point),
         Position::SecondMeetsThird => second_meets_third(arm, &point),
+        Position::General => pieper::general(arm, &point),
         Position::Sliding(sliding) => {
             let each = sliding::joints(arm, &point, sliding).into_iter();
             return each.map(|joints| at(arm, &point, joints)).collect();
@@ -141,7 +143,7 @@ fn stretched(g: &mut Graph, linear: &Linear, value: Expr) -> [Pair; 2] {
 /// The part of `a² + b²` that `a² + b² − c²` counts as none below: 256 units of rounding of a double, since the pose and the
 /// square of the distance bring their own errors (16 units are too few for stretched postures of an iiwa). The elbow is then
 /// wrong by 2.4e-7 rad at most, and the pose by 3e-14 of the arm's size.
-const STRETCHED: f64 = 256.0 * f64::EPSILON;
+pub(super) const STRETCHED: f64 = 256.0 * f64::EPSILON;
 
 /// A joint of which the point may leave the angle free.
 pub(super) fn free(arm: &Layout, joint: usize) -> Option<Free> {

@@ -4,9 +4,10 @@
 //! the other joints alone.
 
 use super::layout::{Layout, Value, about_x, about_x_back, about_z, about_z_back};
-use super::position::{Point, about_meeting, about_parallel, free, solved};
+use super::position::{Point, STRETCHED, about_meeting, about_parallel, free, solved};
 use super::subproblem::{Pair, angle_between, on_circle, square, turned, turned_back, two_angles};
 use crate::expr::{Expr, Graph, Vec3};
+use crate::number::Number;
 use crate::robot::Sliding;
 
 const Z: Vec3 = [Expr::ZERO, Expr::ZERO, Expr::ONE];
@@ -228,7 +229,16 @@ fn last_meets(arm: &mut Layout, point: &Point) -> Vec<[Value; 3]> {
     let across = g.add3(p, off);
     let (reach, own) = (g.dot3(r, r), g.dot3(across, across));
     let left = g.sub(reach, own);
-    let left = g.positive_part(left);
+    let left = match across[0].is_zero() && across[1].is_zero() {
+        // Where both are one the point is on axis 2, and joint 2 is free: there they are one where they are so but for rounding.
+        true => {
+            let part = g.number(Number::rounded(STRETCHED));
+            let none = g.mul(part, reach);
+            let beyond = g.sub(left, none);
+            g.select(beyond, left, Expr::ZERO)
+        }
+        false => g.positive_part(left),
+    };
     let root = g.sqrt(left);
     let thirds = [-root, root].map(|root| g.sub(root, part));
     let mut out = vec![[Value::Slide(Expr::ZERO); 3]; 4];
