@@ -23,6 +23,7 @@ robot! { mod panda from "robots/arms/panda.toml"; outputs: pose, inverse_kinemat
 robot! { mod iiwa14 from "robots/arms/iiwa14.toml"; outputs: pose, inverse_kinematics; }
 robot! { mod stanford from "robots/arms/stanford.toml"; outputs: pose, inverse_kinematics; }
 robot! { mod plane from "robots/arms/bicchi_3r.toml"; outputs: pose, inverse_kinematics; }
+robot! { mod general from "tests/data/general.toml"; outputs: pose, inverse_kinematics; }
 
 /// Arms under a load: one of whose links bend, one that bears any load, and what a tracker found.
 mod loaded {
@@ -203,6 +204,7 @@ fn branches_are_the_rust_kernels_bits(compiler: &str) {
     check!(iiwa14::Robot, "robots/arms/iiwa14.toml");
     check!(stanford::Robot, "robots/arms/stanford.toml");
     check!(plane::Robot, "robots/arms/bicchi_3r.toml");
+    check!(general::Robot, "tests/data/general.toml");
 }
 
 fn set_points_are_the_rust_kernels_bits(compiler: &str) {

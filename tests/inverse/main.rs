@@ -16,6 +16,7 @@ robot! { mod panda from "robots/arms/panda.toml"; outputs: pose, inverse_kinemat
 robot! { mod iiwa14 from "robots/arms/iiwa14.toml"; outputs: pose, inverse_kinematics; }
 robot! { mod stanford from "robots/arms/stanford.toml"; outputs: pose, inverse_kinematics; }
 robot! { mod plane from "robots/arms/bicchi_3r.toml"; outputs: pose, inverse_kinematics; }
+robot! { mod general from "tests/data/general.toml"; outputs: pose, inverse_kinematics; }
 
 robot! {
     /// Link lengths that are known when the program runs.
@@ -120,6 +121,7 @@ fn check_all<S: Scalar + PartialOrd + Into<f64>>(draws: &mut Draws, within: f64)
     check::<S, 7, 8, _>(&panda::Robot, draws, within);
     check::<S, 7, 8, _>(&iiwa14::Robot, draws, within);
     check::<S, 6, 8, _>(&stanford::Robot, draws, within);
+    check::<S, 6, 8, _>(&general::Robot, draws, within);
     check::<S, 5, 4, _>(&five::Robot, draws, within);
     check::<S, 4, 2, _>(&scara::Robot, draws, within);
     check::<S, 3, 2, _>(&plane::Robot, draws, within);
@@ -208,6 +210,7 @@ fn lanes_have_the_bits_of_one_pose() {
     in_lanes(&irb120::Robot, &irb120::Robot, &mut draws);
     in_lanes(&ur10::Robot, &ur10::Robot, &mut draws);
     in_lanes(&panda::Robot, &panda::Robot, &mut draws);
+    in_lanes(&general::Robot, &general::Robot, &mut draws);
     in_lanes(&stanford::Robot, &stanford::Robot, &mut draws);
     in_lanes(&five::Robot, &five::Robot, &mut draws);
     in_lanes(&scara::Robot, &scara::Robot, &mut draws);

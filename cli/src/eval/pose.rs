@@ -75,7 +75,10 @@ pub(super) fn inverse(
     let given_joint = arm.form.given.map(|joint| joint + 1);
     if let (Some(joint), true) = (given_joint, near.is_empty()) {
         return Err(Failure::with_help(
-            format!("--pose: found no --q, and the pose leaves one of {} joints free", source.robot.dof()),
+            format!(
+                "--pose: found no --q, and the pose leaves one of {} joints free",
+                source.robot.dof()
+            ),
             format!("give --q q1,q2,…: every branch has joint {joint} as it has it"),
         ));
     }

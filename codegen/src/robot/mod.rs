@@ -9,6 +9,7 @@ mod closed_form;
 pub(crate) mod decimal;
 mod diagnostic;
 mod dimension;
+mod families;
 pub(crate) mod frames;
 pub(crate) mod inertia;
 pub(crate) mod lexeme;
@@ -33,7 +34,6 @@ pub use crate::frontends::tokens::{
 pub use crate::frontends::urdf;
 pub use crate::schema::Symbol;
 pub use closed_form::{ClosedForm, Family, Position};
-pub use sliding::Sliding;
 pub use diagnostic::{FileError, Located, Warning};
 pub use dimension::Dimension;
 pub use frames::{Asked, Refused, Wanted};
@@ -44,5 +44,6 @@ pub use model::{
 };
 pub(crate) use names::is_keyword;
 pub(crate) use nearest::{DEFLECTION, STEPPED};
+pub use sliding::Sliding;
 #[cfg(feature = "macro")]
 pub(crate) use suggest::closest;

@@ -54,7 +54,8 @@ impl Robot {
         let forms = families
             .flat_map(|family| [false, true].map(|reversed| (reversed, family)))
             .flat_map(|(reversed, family)| {
-                let with = move |given: &Option<usize>| ClosedForm { given: *given, reversed, family };
+                let with =
+                    move |given: &Option<usize>| ClosedForm { given: *given, reversed, family };
                 given.iter().map(with)
             });
         let turns = |form: &ClosedForm| {

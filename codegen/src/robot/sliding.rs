@@ -1,6 +1,6 @@
 //! What three joints of which some are prismatic are, where they place a point by equations of one unknown each.
 
-use super::closed_form::{Chain, is_half_turns};
+use super::families::{Chain, is_half_turns};
 use super::model::{Angle, Motion};
 
 /// Three joints of which some are prismatic: R turns, P slides.
@@ -67,7 +67,8 @@ impl Sliding {
 pub(super) fn of(chain: &Chain) -> Result<Sliding, &'static str> {
     use Motion::{Prismatic as P, Revolute as R};
     const PLANE: &str = "the first three joints do not move the wrist's point in all directions";
-    const OBLIQUE: &str = "of the first three joints, some of which are prismatic, no equation has one unknown";
+    const OBLIQUE: &str =
+        "of the first three joints, some of which are prismatic, no equation has one unknown";
     let motion = [0, 1, 2].map(|k| chain.joints[k].motion);
     let (first, second) = (chain.parallel(1), chain.parallel(2));
     let [first_right, second_right] = [0, 1].map(|k| is_right(chain.alpha[k]));
@@ -100,9 +101,11 @@ pub(super) fn of(chain: &Chain) -> Result<Sliding, &'static str> {
         },
         [R, P, R] => match (first, second) {
             _ if on_third => Err(PLANE),
-            (true, true) => {
-                either(!(chain.a[0].is_zero() && chain.a[1].is_zero()), Sliding::BetweenAlong, PLANE)
-            }
+            (true, true) => either(
+                !(chain.a[0].is_zero() && chain.a[1].is_zero()),
+                Sliding::BetweenAlong,
+                PLANE,
+            ),
             _ if first_right => {
                 let none = second_right && is_half_turns(between);
                 either(!none, Sliding::BetweenAcross, PLANE)
@@ -111,7 +114,9 @@ pub(super) fn of(chain: &Chain) -> Result<Sliding, &'static str> {
         },
         [P, R, R] => match (first, second) {
             _ if on_third => Err(PLANE),
-            (true, true) => either(!chain.a[1].is_zero(), Sliding::FirstAlong, "axes 2 and 3 are one"),
+            (true, true) => {
+                either(!chain.a[1].is_zero(), Sliding::FirstAlong, "axes 2 and 3 are one")
+            }
             (_, false) if first_right => Ok(Sliding::FirstAcross),
             (_, true) if first_right => Err(PLANE),
             _ => Err(OBLIQUE),

@@ -7,9 +7,7 @@ mod steps;
 use nalgebra::{Isometry3, Vector3, Vector6};
 
 use arms::{Arm, Branch, FAMILIES, OTHERS, collection, random};
-use stiffarm_codegen::robot::{
-    Angle, Convention, Family, FileError, Motion, Robot, Value,
-};
+use stiffarm_codegen::robot::{Angle, Convention, Family, FileError, Motion, Robot, Value};
 use stiffarm_draws::Draws;
 
 /// From the pose to another: translation and rotation vector, base axes.

@@ -33,7 +33,8 @@ fn missed(by: f64, draws: &mut Draws) -> (usize, usize) {
             let form =
                 robot.nearest_closed_form().unwrap_or_else(|no| panic!("{no:?} {}", exact.name));
             assert!(robot.closed_form().is_err());
-            let (arm, forward) = (AsItIs::<6>::new(&robot, form, Given::default()), reference(&robot));
+            let (arm, forward) =
+                (AsItIs::<6>::new(&robot, form, Given::default()), reference(&robot));
             for _ in 0..40 {
                 let q: [f64; 6] = draws.array(-3.1, 3.1);
                 let at = forward.pose(&q);

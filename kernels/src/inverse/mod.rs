@@ -138,7 +138,8 @@ impl<S: Scalar + PartialOrd + Into<f64>, const N: usize, const K: usize> Solutio
             })
         };
         for _ in 0..K {
-            let Solution { branch, q, motion, .. } = self.nearest(near, limits, (f64::MAX, f64::MAX))?;
+            let Solution { branch, q, motion, .. } =
+                self.nearest(near, limits, (f64::MAX, f64::MAX))?;
             if let Some((q, [d, t])) = follow(q)
                 && within(&q)
                 && d.into() <= distance

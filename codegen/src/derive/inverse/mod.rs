@@ -9,11 +9,14 @@
 //! barely determines is wrong alone, and the pose that the angles give is not.
 
 mod any;
+mod displacement;
 mod gives;
 mod layout;
+mod one_slide;
 mod parallel;
 mod pieper;
 mod plane;
+mod point;
 mod position;
 mod sliding;
 mod steps;
@@ -151,7 +154,9 @@ fn bits(form: ClosedForm) -> String {
 fn tilt(form: ClosedForm) -> String {
     let what = match form.is_of_six() {
         true => "How far the last axis is from the target's, as the length between unit vectors",
-        false => "How far the tool's axes are turned from the target's, twice the sine of half the angle",
+        false => {
+            "How far the tool's axes are turned from the target's, twice the sine of half the angle"
+        }
     };
     format!("{what}: zero but for rounding where the branch reaches it")
 }

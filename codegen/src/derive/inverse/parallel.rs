@@ -4,7 +4,8 @@
 //! of the parallel axes stands in the target θ_6. What is left is a triangle in a plane.
 
 use super::Branch;
-use super::layout::{Layout, Value, about_x_back, about_z_back};
+use super::displacement::{about_x_back, about_z_back};
+use super::layout::{Layout, Value};
 use super::plane::{Trio, triangle};
 use super::subproblem::{Free, square, two_angles};
 use super::wrist::{Turned, two_turns};

@@ -5,8 +5,10 @@
 //! conic that meets the circle in four points at most. Two lines through the four are one of the three degenerate conics
 //! among the sums of both, and each line meets the circle where an equation of one angle says.
 
-use super::layout::{Layout, about_x};
-use super::position::{Linear, Point, free};
+use super::displacement::about_x;
+use super::layout::Layout;
+use super::point::{Linear, Point};
+use super::position::free;
 use super::subproblem::{Pair, angle_between, turned, two_angles, unit};
 use crate::expr::{Expr, Graph};
 use crate::number::Number;

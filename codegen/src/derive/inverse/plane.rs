@@ -4,7 +4,8 @@
 //! lengths: the direction of what the joints behind them hold gives φ, the place in the plane the triangle.
 
 use super::Branch;
-use super::layout::{Layout, Value, about_x_back, about_z_back};
+use super::displacement::{about_x_back, about_z_back};
+use super::layout::{Layout, Value};
 use super::subproblem::{
     Free, Pair, angle_between, nearest_turn, square, turned, turned_back, two_angles,
 };
@@ -82,8 +83,7 @@ pub(super) fn branches(arm: &mut Layout, before: bool, behind: usize, lift: bool
     let planes = match before {
         false => vec![None],
         true => {
-            let ([cosine, sine], free) =
-                (arm.alpha[0], Free { near: arm.near[0], tiny: arm.tiny });
+            let ([cosine, sine], free) = (arm.alpha[0], Free { near: arm.near[0], tiny: arm.tiny });
             let g = &mut arm.g;
             // cos α_1 p_z − sin α_1 (−sin θ_1 p_x + cos θ_1 p_y).
             let height = g.sub(tip[2], arm.d[0]);

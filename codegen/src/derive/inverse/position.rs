@@ -4,12 +4,12 @@
 //! `r = Rz(θ_1) (a_1 x + Rx(α_1) g)`, `g = Rz(θ_2) f + d_2 z`, `f = a_2 x + Rx(α_2) (Rz(θ_3) c + d_3 z)`.
 //! A special pair of axes makes an equation of one unknown angle (Pieper 1968).
 
-use super::layout::{Layout, Value, about_x, about_x_back, about_z_back};
+use super::displacement::{about_x, about_x_back, about_z_back};
+use super::layout::{Layout, Value};
 use super::pieper;
+use super::point::{Linear, Point};
 use super::sliding;
-use super::subproblem::{
-    Free, Pair, angle_between, square, turned, two_angles, two_angles_within,
-};
+use super::subproblem::{Free, Pair, angle_between, square, turned, two_angles, two_angles_within};
 use crate::expr::{Expr, Graph, Vec3};
 use crate::number::Number;
 use crate::robot::Position;
@@ -19,42 +19,6 @@ use crate::robot::Position;
 pub(super) struct At {
     pub joints: [Value; 3],
     pub distance: Expr,
-}
-
-/// What does not depend on the angles.
-pub(super) struct Point {
-    /// Where the wrist's point is to be, in the frame before joint 1.
-    pub wrist: Vec3,
-    /// The same from that frame moved by d_1.
-    pub r: Vec3,
-    /// The point in the frame that joint 3 turns; its third component less what d_3 moves.
-    pub c: Pair,
-    /// That component.
-    pub cz: Expr,
-    /// Component of the point along axis 3, d_3 included.
-    pub uz: Expr,
-}
-
-impl Point {
-    /// The point that so many joints behind the third only turn about: the tool's origin, or that beside it on axis 4, or
-    /// where the axes meet.
-    fn new(arm: &mut Layout, behind: usize) -> Point {
-        let (wrist, c) = match behind {
-            0 => (arm.tip, arm.lever),
-            _ => {
-                let (wrist, along) = match behind {
-                    1 => (arm.beside_tip(), arm.g.add(arm.d[3], arm.lever[2])),
-                    _ => (arm.before_last(), arm.d[3]),
-                };
-                let [cosine, sine] = arm.alpha[2];
-                let (y, z) = (arm.g.mul(-sine, along), arm.g.mul(cosine, along));
-                (wrist, [arm.a[2], y, z])
-            }
-        };
-        let [x, y, z] = c;
-        let r = [wrist[0], wrist[1], arm.g.sub(wrist[2], arm.d[0])];
-        Point { wrist, r, c: [x, y], cz: z, uz: arm.g.add(z, arm.d[2]) }
-    }
 }
 
 /// Shoulder and elbow as the bits of the number, from the higher.
@@ -95,37 +59,6 @@ fn at(arm: &mut Layout, point: &Point, joints: [Value; 3]) -> At {
     let off = arm.g.add3(left, [-x, -y, -point.cz]);
     let square = arm.g.dot3(off, off);
     At { joints, distance: arm.g.sqrt(square) }
-}
-
-/// `a cos θ_3 + b sin θ_3 + constant`.
-pub(super) struct Linear {
-    pub by: Pair,
-    pub constant: Expr,
-}
-
-impl Point {
-    /// `f` at an angle of joint 3.
-    pub fn f(&self, arm: &mut Layout, third: Pair) -> Vec3 {
-        let g = &mut arm.g;
-        let [x, y] = turned(g, third, self.c);
-        let [x, y, z] = about_x(g, arm.alpha[1], [x, y, self.uz]);
-        [g.add(arm.a[1], x), y, z]
-    }
-
-    /// Its third component, which no other angle changes.
-    pub fn fz(&self, arm: &mut Layout) -> Linear {
-        let (g, [cosine, sine], [x, y]) = (&mut arm.g, arm.alpha[1], self.c);
-        Linear { by: [g.mul(sine, y), g.mul(sine, x)], constant: g.mul(cosine, self.uz) }
-    }
-
-    /// Its square.
-    pub fn square(&self, arm: &mut Layout) -> Linear {
-        let g = &mut arm.g;
-        let twice = g.add(arm.a[1], arm.a[1]);
-        let by = [g.mul(twice, self.c[0]), -g.mul(twice, self.c[1])];
-        let (in_plane, own) = (square(g, self.c), square(g, [self.uz, arm.a[1]]));
-        Linear { by, constant: g.add(in_plane, own) }
-    }
 }
 
 /// Both angles of joint 3 where it has a value.
@@ -218,7 +151,11 @@ fn first_meets_second(arm: &mut Layout, point: &Point) -> [[Pair; 3]; 4] {
 }
 
 /// θ_1 and θ_2 about axes that meet, for both shoulders: `f` is what joint 2 turns.
-pub(super) fn about_meeting(arm: &mut Layout, [rx, ry, rz]: Vec3, [fx, fy, fz]: Vec3) -> [[Pair; 2]; 2] {
+pub(super) fn about_meeting(
+    arm: &mut Layout,
+    [rx, ry, rz]: Vec3,
+    [fx, fy, fz]: Vec3,
+) -> [[Pair; 2]; 2] {
     let (free_first, free_second) = (free(arm, 0), free(arm, 1));
     let gz = arm.g.add(fz, arm.d[1]);
     let gy = across_second(arm, rz, gz);
@@ -249,7 +186,11 @@ fn first_parallel_second(arm: &mut Layout, point: &Point) -> [[Pair; 3]; 4] {
 }
 
 /// θ_1 and θ_2 about parallel axes, two of them: `f` is what joint 2 turns.
-pub(super) fn about_parallel(arm: &mut Layout, [rx, ry, _]: Vec3, [fx, fy, _]: Vec3) -> [[Pair; 2]; 2] {
+pub(super) fn about_parallel(
+    arm: &mut Layout,
+    [rx, ry, _]: Vec3,
+    [fx, fy, _]: Vec3,
+) -> [[Pair; 2]; 2] {
     let (free_first, free_second) = (free(arm, 0), free(arm, 1));
     let (g, a, side) = (&mut arm.g, arm.a[0], arm.alpha[0][0]);
     let (across, own, inner) = (square(g, [rx, ry]), g.mul(a, a), square(g, [fx, fy]));

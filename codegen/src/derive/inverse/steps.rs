@@ -88,8 +88,12 @@ impl<const N: usize> AsItIs<N> {
         let block = |k: usize| closed.graph.evaluate(&closed.blocks[k].entries, value);
         let (q, missed) = (block(0), block(1).into_iter().zip(block(2)));
         let each = q.chunks(N).zip(missed).enumerate();
-        each.map(|(branch, (q, (distance, tilt)))| {
-            Solution { branch, q: array(q), distance, tilt, motion: self.motion }
+        each.map(|(branch, (q, (distance, tilt)))| Solution {
+            branch,
+            q: array(q),
+            distance,
+            tilt,
+            motion: self.motion,
         })
         .collect()
     }

@@ -4,9 +4,12 @@
 //! column θ_4, and what is then left θ_6. Of two angles the last axis gives the first, of one the nearest turn.
 
 use super::Branch;
-use super::layout::{Layout, NOTHING, Value, about_x_back, about_z_back};
+use super::displacement::{about_x_back, about_z_back};
+use super::layout::{Layout, NOTHING, Value};
 use super::position::At;
-use super::subproblem::{Free, Pair, angle_between, nearest_turn, square, turned, turned_back, unit};
+use super::subproblem::{
+    Free, Pair, angle_between, nearest_turn, square, turned, turned_back, unit,
+};
 use crate::expr::{Expr, Vec3};
 use crate::number::Number;
 

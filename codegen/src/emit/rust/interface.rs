@@ -9,9 +9,7 @@ use super::table::numeric;
 use crate::derive::{Held, steps};
 use crate::emit::lines::Lines;
 use crate::ir::{Extra, Group, Module};
-use crate::robot::{
-    CLOSED_FORM, ClosedForm, DEFLECTION, GIVES, INVERSE_KINEMATICS, Motion, Robot,
-};
+use crate::robot::{CLOSED_FORM, ClosedForm, DEFLECTION, GIVES, INVERSE_KINEMATICS, Motion, Robot};
 
 /// The struct `Robot` and its traits.
 pub(super) fn interface(
