@@ -6,8 +6,6 @@ import os
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Optional, Union
 
-import numpy
-
 from . import _native
 from .branches import Branches
 from .outputs import Outputs
@@ -127,7 +125,7 @@ class Arm(_native.Arm, Outputs):
         pose: ArrayLike,
         near: Optional[ArrayLike] = None,
         *,
-        wrench: Optional[ArrayLike] = None,
+        wrench: Optional[Sequence[float]] = None,
         sides: Optional[ArrayLike] = None,
         warming: Optional[float] = None,
     ) -> Branches:
@@ -138,7 +136,7 @@ class Arm(_native.Arm, Outputs):
         the first) has its value from there in every branch. With a `wrench` (6,) they are set-points of the arm that gives under it
         and its weights. An arm without a closed form near its table is a ``ValueError`` that says what stands in the way.
         """
-        load = None if wrench is None else [float(each) for each in numpy.asarray(wrench)]
+        load = None if wrench is None else [float(each) for each in wrench]
         return Branches(*self.branches(pose, near, load, sides, warming))
 
     #: Its short name.

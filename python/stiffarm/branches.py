@@ -5,15 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-import numpy
-
 if TYPE_CHECKING:
+    import numpy
     from numpy.typing import ArrayLike, NDArray
 
     Reals = NDArray[numpy.float64]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Branches:
     """Every branch of an inverse kinematics, reached or not; of many poses with the batch in front."""
 
@@ -35,6 +34,8 @@ class Branches:
 
     def nearest(self, near: ArrayLike, distance: float = 1e-6, angle: float = 1e-6) -> Reals:
         """Of the branches that are :meth:`reached` the readings with the least change from `near`, (n,); NaN where there is none."""
+        import numpy
+
         change: NDArray[Any] = numpy.linalg.norm(self.q - numpy.asarray(near)[..., None, :], axis=-1)
         change = numpy.where(self.reached(distance, angle), change, numpy.inf)
         best = change.argmin(axis=-1)[..., None]
