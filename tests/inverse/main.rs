@@ -105,10 +105,11 @@ fn check<S, const N: usize, const K: usize, A: Both<S, N, K>>(
         let change = nearest.q.iter().zip(&q).map(|(a, b)| ((*a - *b).into()).abs());
         // Near a double root a posture is known to the square root of the pose's rounding.
         let change = change.fold(0.0, f64::max);
-        // A stretched arm between a spherical shoulder and a spherical wrist turns about itself, too.
+        // Axes in general position have worse ones, and a stretched arm between a spherical shoulder and a spherical wrist
+        // turns about itself, too.
         elsewhere += usize::from(change > 3.0 * within.sqrt());
     }
-    let most = if N == 7 { 8 } else { 0 };
+    let most = if N == 7 { 8 } else { 1 };
     assert!(beside < 20 && elsewhere <= most, "{}: {beside} {elsewhere}", A::NAME);
 }
 

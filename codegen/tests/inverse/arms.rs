@@ -172,7 +172,8 @@ pub const FAMILIES: [(&str, [&str; 6]); 12] = [
 ];
 
 /// The same of other joints than six that turn: a row that begins with `s` is that of a prismatic joint.
-pub const OTHERS: [(&str, &[&str]); 40] = [
+pub const OTHERS: [(&str, &[&str]); 41] = [
+    ("PPP behind a wrist", &["0ra", "0r0", "axa", "saxa", "saxa", "sara"]),
     ("general", &["axa", "axa", "axa", "0xa", "0x0", "axa"]),
     ("general, at right angles", &["ara", "ara", "ara", "0ra", "0r0", "ara"]),
     ("general, reversed", &["0xa", "0x0", "axa", "axa", "axa", "axa"]),
