@@ -179,7 +179,7 @@ fn a_hundred_thousand_postures_are_branches_of_their_poses() {
 #[test]
 fn aligned_postures_are_reached_and_free_joints_stay() {
     let mut draws = Draws::new(4);
-    let mut worst = 0.0_f64;
+    let (mut worst, mut all_of_them, mut beside) = (0.0_f64, 0, 0);
     for arm in all(6, &mut draws) {
         for k in 0..if arm.name.contains('\n') { 200 } else { 4096 } {
             let n = arm.robot.dof();
@@ -210,6 +210,8 @@ fn aligned_postures_are_reached_and_free_joints_stay() {
             let missed = |branch: &Branch| branch.distance / arm.size() + branch.tilt;
             let least = arm.branches(&pose, &q).iter().map(missed).fold(f64::INFINITY, f64::min);
             if values[1] > 1e-6 {
+                all_of_them += 1;
+                beside += usize::from(least > 1e-5);
                 worst = worst.max(least);
             }
             // A double root is known to the square root of rounding.
@@ -226,8 +228,9 @@ fn aligned_postures_are_reached_and_free_joints_stay() {
             }
         }
     }
-    // 2e-5, of three parallel axes within 1e-9 of two singularities and near a third.
-    assert!(worst < 1e-4, "{worst:e}");
+    // Of three parallel axes within 1e-12 of two singularities, a few in a hundred thousand: 2e-4 at most.
+    println!("{beside} of {all_of_them} are missed by more than 1e-5, at most by {worst:.1e}");
+    assert!(worst < 1e-3 && beside * 10_000 < all_of_them, "{worst:e} {beside} of {all_of_them}");
 }
 
 /// The point where the last axes meet on the first axis, far out, and at the shoulder.
