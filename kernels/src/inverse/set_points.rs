@@ -58,7 +58,7 @@ where
 /// A Jacobian of which a joint moves nothing.
 #[inline(always)]
 fn held<S: Scalar, const N: usize>(mut jacobian: [[S; 6]; N], joint: Option<usize>) -> [[S; 6]; N] {
-    for column in jacobian.iter_mut().skip(joint.unwrap_or(N)).take(1) {
+    if let Some(column) = joint.and_then(|joint| jacobian.get_mut(joint)) {
         *column = [S::lit(0.0); 6];
     }
     jacobian
