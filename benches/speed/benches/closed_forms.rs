@@ -1,4 +1,4 @@
-//! The closed forms of arms with seven joints, and of one with its first axes in general position: nanoseconds per pose.
+//! The closed forms of arms with seven joints, beside one with six: nanoseconds per pose.
 //!
 //! ```text
 //! cargo bench -p stiffarm-bench --bench closed_forms
@@ -6,7 +6,7 @@
 //!
 //! It is a crate of its own: more arms in that of `speed` change which functions are inlined there.
 
-use stiffarm_bench::arms::inverse::{general, iiwa14, kuka_kr240, panda};
+use stiffarm_bench::arms::inverse::{iiwa14, kuka_kr240, panda};
 use stiffarm_bench::timing::{Candidate, print};
 use stiffarm_draws::Draws;
 use stiffarm_kernels::{Arm as _, Inverse, Pose, has};
@@ -32,5 +32,4 @@ fn main() {
     time("kuka_kr240", &kuka_kr240::Robot);
     time("panda", &panda::Robot);
     time("iiwa14", &iiwa14::Robot);
-    time("general", &general::Robot);
 }

@@ -172,7 +172,7 @@ fn postures_are_branches_of_their_poses() {
 #[test]
 #[ignore = "takes minutes"]
 fn a_hundred_thousand_postures_are_branches_of_their_poses() {
-    postures_of(100_000, 400);
+    postures_of(100_000, 40);
 }
 
 /// Joints at whole quarter turns, of which the axes are aligned in all ways, and within 1e-12 and 1e-9 of them.
@@ -263,6 +263,7 @@ fn solutions_at(poses: usize) {
     let mut arms = collection();
     arms.extend(FAMILIES.map(|family| random(family, &mut draws)));
     arms.extend(OTHERS.map(|family| random(family, &mut draws)));
+    let [mut all, mut missing] = [0, 0];
     for arm in arms {
         for _ in 0..poses {
             let q = arm.posture(&mut draws);
@@ -283,16 +284,20 @@ fn solutions_at(poses: usize) {
                 assert!(nearest < 1e-5, "{}: {q:?} is no branch: {nearest:e}", arm.name);
             }
             assert!(found.len() <= reached.len(), "{}", arm.name);
-            // So many starts find nearly all.
+            // So many starts find nearly all, and no two branches are one.
+            missing += reached.len() - found.len();
             assert!(
-                found.len() + 1 >= reached.len(),
+                found.len() + 2 >= reached.len(),
                 "{}: {} {}",
                 arm.name,
                 found.len(),
                 reached.len()
             );
+            all += reached.len();
         }
     }
+    println!("{missing} of {all} solutions were not found by search");
+    assert!(missing * 50 < all, "{missing} of {all}");
 }
 
 #[test]

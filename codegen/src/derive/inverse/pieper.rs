@@ -186,8 +186,16 @@ impl Conic {
         let k_e = g.select(larger, from_d, by_e);
         let (sum, rest) = (g.add(k_d, k_e), g.sub(k_e, k_d));
         let lines = [([alpha, -beta], -sum), ([alpha, beta], rest)];
-        let [[a, b], [c, d]] = lines.map(|(normal, value)| two_angles(g, normal, value, None));
-        [a, b, c, d].map(|angle| self.polished(g, angle))
+        let [[a, b], [c, d]] = lines.map(|(normal, value)| {
+            // An angle of a line that does not meet the circle stays where it comes closest: a step would lead to another's.
+            let square = g.mul(value, value);
+            let meets = g.sub(Expr::ONE, square);
+            two_angles(g, normal, value, None).map(|angle| {
+                let polished = self.polished(g, angle);
+                [0, 1].map(|k| g.select(meets, polished[k], angle[k]))
+            })
+        });
+        [a, b, c, d]
     }
 
     /// The `m` between −1 and 0 of which `c² + d c + e s + f + m (c² + s² − 1)` is two lines: a root of the cubic
