@@ -9,7 +9,7 @@
 use stiffarm_bench::arms::inverse::{iiwa14, kuka_kr240, panda};
 use stiffarm_bench::timing::{Candidate, print};
 use stiffarm_draws::Draws;
-use stiffarm_kernels::{Arm as _, Inverse, Pose, has};
+use stiffarm_kernels::{Inverse, Pose, has};
 
 const POSES: usize = 2048;
 const ROUNDS: usize = 41;
