@@ -17,10 +17,12 @@ const ARMS: [&str; 5] = [
 ];
 
 /// Arms of which the inverse is timed: with a closed form, and near one.
-const INVERSES: [&str; 5] = [
+const INVERSES: [&str; 7] = [
     "../../robots/arms/ur10.toml",
     "../../robots/arms/kuka_kr240.toml",
     "../../robots/arms/irb120.toml",
+    "../../robots/arms/panda.toml",
+    "../../robots/arms/iiwa14.toml",
     "../../tests/data/calibrated_ur10.toml",
     "../../tests/data/calibrated_kuka.toml",
 ];

@@ -35,6 +35,7 @@ pub use interop::simba;
 pub use inverse::unloaded;
 pub use inverse::{
     AtRest, Elastic, Gives, Inverse, JointValues, SetPoints, Solution, Solutions, Steps,
+    nearest_branch,
 };
 #[doc(hidden)]
 pub use kernel::fill;

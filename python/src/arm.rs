@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 use std::path::PathBuf;
+use std::sync::OnceLock;
 
 use nalgebra::Vector6;
 use numpy::{PyArrayMethods, PyUntypedArrayMethods};
@@ -19,6 +20,7 @@ use stiffarm_kernels::{Input, Output, Side};
 use crate::arrays::{self, Numbers, Shape, lead, numbers, shape};
 use crate::compiled::{self, Library};
 use crate::engine::{Engines, Poses};
+use crate::inverse::{Found, Inverse};
 use crate::work::{self, Unstable};
 
 /// Fewer poses than this take less time than it takes to hand over the interpreter.
@@ -64,6 +66,7 @@ pub struct Arm {
     source: Source,
     text: String,
     engines: Engines,
+    inverse: OnceLock<Result<Inverse, String>>,
 }
 
 #[pymethods]
@@ -97,7 +100,7 @@ impl Arm {
         let id = (source.built_in && !is_set).then_some(source.given.as_str());
         let engines = Engines::new(robot, table, id.and_then(stiffarm_robots::arm));
         let text = if is_set { source.robot.to_toml() } else { source.text.clone() };
-        Ok(Arm { source, text, engines })
+        Ok(Arm { source, text, engines, inverse: OnceLock::new() })
     }
 
     /// The arm's name.
@@ -185,6 +188,25 @@ impl Arm {
             self.engines.take(library)
         });
         taken.map_err(|error| PyValueError::new_err(format!("{}: {error}", path.display())))
+    }
+
+    /// Every branch of the inverse kinematics at one pose or many (4, 4), near readings `near`; of the loaded arm where there is a
+    /// `wrench` (6,), base axes.
+    #[pyo3(signature = (pose, near=None, wrench=None, sides=None, warming=None))]
+    fn branches<'py>(
+        &self,
+        py: Python<'py>,
+        pose: &Bound<'py, PyAny>,
+        near: Option<&Bound<'py, PyAny>>,
+        wrench: Option<[f64; 6]>,
+        sides: Option<&Bound<'py, PyAny>>,
+        warming: Option<f64>,
+    ) -> PyResult<Found<'py>> {
+        let given = self.given_beside(py, sides, warming)?;
+        let robot = self.engines.robot();
+        let inverse = py.detach(|| self.inverse.get_or_init(|| Inverse::new(robot)));
+        let inverse = inverse.as_ref().map_err(|why| PyValueError::new_err(why.clone()))?;
+        inverse.found(py, pose, near, (wrench, &given))
     }
 
     /// An output at one pose or many.

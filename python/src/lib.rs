@@ -8,6 +8,7 @@ mod compiled;
 mod diagnosis;
 mod effect;
 mod engine;
+mod inverse;
 mod log_effect;
 mod own;
 mod work;

@@ -12,6 +12,7 @@ at the tool's origin in base axes. Remarks go to the logger ``stiffarm``, progre
 from ._native import VERSION as __version__
 from ._native import Effect, Error, LogEffect, Reading, Row, Samples, Unstable, robots
 from .arm import Arm
+from .branches import Branches
 from .commands import check, compensate, effects, generate, identify, import_urdf, measurements, papers, predict
 from .commands import eval as eval
 from .commands import map as map
@@ -25,6 +26,7 @@ from .table import Map, Table
 # Without eval and map, which `from stiffarm import *` would hide Python's own by.
 __all__ = [
     "Arm",
+    "Branches",
     "Diagnosis",
     "Effect",
     "Error",

@@ -82,6 +82,14 @@ class Arm:
     def engine(self, output: str, at: Optional[str] = None) -> str: ...
     def c_source(self) -> str: ...
     def load_c(self, path: Any) -> None: ...
+    def branches(
+        self,
+        pose: ArrayLike,
+        near: Optional[ArrayLike] = None,
+        wrench: Optional[Sequence[float]] = None,
+        sides: Optional[ArrayLike] = None,
+        warming: Optional[float] = None,
+    ) -> tuple[NDArray[numpy.float64], NDArray[numpy.float64], NDArray[numpy.float64], NDArray[numpy.bool_], list[str]]: ...
     def evaluate(
         self,
         output: str,

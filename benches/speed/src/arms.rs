@@ -40,7 +40,7 @@ macro_rules! inverse {
     };
 }
 
-inverse!(ur10 kuka_kr240 irb120 calibrated_ur10 calibrated_kuka);
+inverse!(ur10 kuka_kr240 irb120 panda iiwa14 calibrated_ur10 calibrated_kuka);
 
 /// From which sides the joints of the calibrated arms come.
 pub const SIDES: [f64; 6] = [1.0, -1.0, 1.0, 1.0, -1.0, 1.0];

@@ -27,11 +27,13 @@ Examples:
   stiffarm eval kuka_kr240 --q 0.1,-0.8,0.6,0,0.4,0 --wrench 0,0,-500,0,0,0 --json state.json
   stiffarm eval better.toml --q 0,0.5,0,0,0,0 --sides 1,-1,1,1,1,-1 --warming 8
   stiffarm eval kuka_kr240 --pose 1.6,0.2,1.1,0,90deg,0 --wrench 0,0,-2000,0,0,0
+  stiffarm eval panda --pose 0.4,0.1,0.5,180deg,0,0 --q 0,0,0,-90deg,0,90deg,45deg
   stiffarm eval lin_planar_symbolic --set L1=24in … --q 0,0 --json - | jq .deflection
 
 --pose asks for the inverse: every branch of the arm's closed form, or of the nearest table's with the steps from
 there to the arm of the file, its effects and (with --wrench or --gravity) what it gives included; what a
-branch misses the pose by; and which are within the limits.";
+branch misses the pose by; and which are within the limits. Of seven joints the pose leaves one free: every
+branch has the last one (or the first) as --q has it.";
 
 /// Pose, Jacobian, stiffness and deflection at one posture under one load
 #[derive(clap::Args)]

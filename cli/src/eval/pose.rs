@@ -3,8 +3,8 @@
 use nalgebra::{Isometry3, UnitQuaternion, Vector3, Vector6};
 use serde::Serialize;
 use stiffarm_codegen::derive::Given;
+use stiffarm_codegen::robot::Motion;
 use stiffarm_gap::measurement::Dimension;
-use stiffarm_kernels::Solution;
 
 use super::Args;
 use crate::input::branches::{Branches, WITHIN};
@@ -16,23 +16,41 @@ use crate::terminal::text::{Align, bold, dim, indented, minus, short, table};
 /// Every branch.
 #[derive(Serialize)]
 pub(super) struct Inverse {
+    /// The joint, from 1, whose value is that of `--q` in every branch.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    given: Option<usize>,
     solutions: Vec<Branch>,
+    /// What the bits of a branch's number choose, from the highest.
+    #[serde(skip)]
+    bits: Vec<&'static str>,
 }
 
-/// One branch: which of two each of shoulder, elbow and wrist has, its set-points, what they miss the pose by.
+/// One branch: which of two each of shoulder, elbow and wrist has (0 where the arm has but one), its set-points, what they
+/// miss the pose by.
 #[derive(Serialize)]
 struct Branch {
     branch: usize,
     shoulder: usize,
     elbow: usize,
     wrist: usize,
-    q: [f64; 6],
+    q: Vec<f64>,
     distance: f64,
     angle: f64,
     reached: bool,
     within_limits: bool,
     /// Whole turns by which each joint may stand elsewhere within its limits; none where it has no limits.
-    turns: [Option<Vec<i32>>; 6],
+    turns: Vec<Option<Vec<i32>>>,
+}
+
+impl Branch {
+    /// What is chosen of two by a bit's name.
+    fn side(&self, bit: &str) -> usize {
+        match bit {
+            "shoulder" => self.shoulder,
+            "elbow" => self.elbow,
+            _ => self.wrist,
+        }
+    }
 }
 
 /// A pose from the command line: three coordinates and a rotation vector.
@@ -54,50 +72,74 @@ pub(super) fn inverse(
     (wrench, given): (&Vector6<f64>, &Given),
 ) -> Result<Inverse, Failure> {
     let arm = Branches::new(source, args.gravity)?;
-    let near = core::array::from_fn(|joint| near.get(joint).copied().unwrap_or(0.0));
+    let given_joint = arm.form.given.map(|joint| joint + 1);
+    if let (Some(joint), true) = (given_joint, near.is_empty()) {
+        return Err(Failure::with_help(
+            format!(
+                "--pose: found no --q, and the pose leaves one of {} joints free",
+                source.robot.dof()
+            ),
+            format!("give --q q1,q2,…: every branch has joint {joint} as it has it"),
+        ));
+    }
     let loaded = (args.gravity || args.wrench.is_some()).then_some(wrench);
-    let found = arm.at(pose, &near, (loaded, given));
-    let branch = |found: Solution<f64, 6>| {
-        let turned = found.turned(&near, &arm.limits);
-        let q = turned.map_or(found.q, |turned| turned.q);
-        let turns = |joint: usize| {
-            let [low, high] = arm.limits[joint]?;
-            let turn = core::f64::consts::TAU;
-            let (least, most) =
-                (((low - q[joint]) / turn).ceil(), ((high - q[joint]) / turn).floor());
-            Some((least as i32..=most as i32).collect())
-        };
-        Branch {
-            branch: found.branch,
-            shoulder: found.branch >> 2,
-            elbow: found.branch >> 1 & 1,
-            wrist: found.branch & 1,
-            q: q.map(|q| q + 0.0),
-            distance: found.distance,
-            angle: found.tilt,
-            reached: found.distance <= WITHIN && found.tilt <= WITHIN,
-            within_limits: turned.is_some(),
-            turns: core::array::from_fn(turns),
-        }
-    };
-    let solutions: Vec<Branch> = found.iter().map(branch).collect();
+    let bits = arm.form.bits();
+    let joints = &source.robot.joints;
+    let solutions: Vec<Branch> = arm
+        .at(pose, near, (loaded, given))
+        .into_iter()
+        .map(|found| {
+            let side = |name: &str| {
+                let at = bits.iter().rev().position(|bit| *bit == name);
+                at.map_or(0, |at| found.number >> at & 1)
+            };
+            let turns = joints.iter().zip(&found.q).enumerate().map(|(k, (joint, q))| {
+                let [low, high] = joint.limits?;
+                let turn = core::f64::consts::TAU;
+                let (least, most) = (((low - q) / turn).ceil(), ((high - q) / turn).floor());
+                let moves = joint.motion == Motion::Revolute && arm.form.given != Some(k);
+                Some(if moves { (least as i32..=most as i32).collect() } else { vec![0] })
+            });
+            Branch {
+                branch: found.number,
+                shoulder: side("shoulder"),
+                elbow: side("elbow"),
+                wrist: side("wrist"),
+                turns: turns.collect(),
+                reached: found.distance <= WITHIN && found.tilt <= WITHIN,
+                within_limits: found.within,
+                q: found.q,
+                distance: found.distance,
+                angle: found.tilt,
+            }
+        })
+        .collect();
     match solutions.iter().any(|branch| !branch.distance.is_finite()) {
         true => Err(Failure::with_help(
             stiffarm_kernels::Unstable.to_string(),
             "check the load, its unit and the stiffness",
         )),
-        false => Ok(Inverse { solutions }),
+        false => Ok(Inverse { given: given_joint, solutions, bits }),
     }
 }
 
 /// A line for each branch.
 pub(super) fn screen(source: &Source, result: &Inverse) -> String {
-    let heads = ["shoulder", "elbow", "wrist", "q1", "q2", "q3", "q4", "q5", "q6", "misses by", ""];
-    let mut rows = vec![heads.map(str::to_owned).to_vec()];
+    let joints = &source.robot.joints;
+    let heads = result.bits.iter().map(|bit| (*bit).to_owned());
+    let mut heads: Vec<String> =
+        heads.chain((1..=joints.len()).map(|joint| format!("q{joint}"))).collect();
+    heads.extend(["misses by".to_owned(), String::new()]);
+    let mut rows = vec![heads];
     for branch in &result.solutions {
-        let side = |side: usize| if side == 0 { "−" } else { "+" }.to_owned();
-        let mut row = vec![side(branch.shoulder), side(branch.elbow), side(branch.wrist)];
-        row.extend(branch.q.iter().map(|q| minus(format!("{:.4}", q.to_degrees() + 0.0))));
+        let side = |bit: &&str| if branch.side(bit) == 0 { "−" } else { "+" }.to_owned();
+        let mut row: Vec<String> = result.bits.iter().map(side).collect();
+        row.extend(branch.q.iter().zip(joints).map(|(q, joint)| {
+            minus(match joint.motion {
+                Motion::Revolute => format!("{:.4}", q.to_degrees() + 0.0),
+                Motion::Prismatic => format!("{:.4}", 1e3 * q + 0.0),
+            })
+        }));
         row.push(match branch.reached {
             true => String::new(),
             false => {
@@ -119,13 +161,20 @@ pub(super) fn screen(source: &Source, result: &Inverse) -> String {
     }
     let reached = result.solutions.iter().filter(|branch| branch.reached).count();
     let allowed = result.solutions.iter().filter(|b| b.reached && b.within_limits).count();
-    let aligns: Vec<Align> = (0..11)
-        .map(|column| if (3..=8).contains(&column) { Align::Right } else { Align::Left })
+    let first = result.bits.len();
+    let aligns: Vec<Align> = (0..first + joints.len() + 2)
+        .map(|column| match (first..first + joints.len()).contains(&column) {
+            true => Align::Right,
+            false => Align::Left,
+        })
         .collect();
+    let slides = joints.iter().any(|joint| joint.motion == Motion::Prismatic);
+    let unit = if slides { "degrees and mm" } else { "degrees" };
+    let held = result.given.map_or_else(String::new, |joint| format!(", joint {joint} as given"));
     format!(
         "{}  {}\n\n{}\n{reached} of {} branches reach the pose, {allowed} within the limits\n",
         bold(&source.robot.name),
-        dim(format!("{}, set-points in degrees", source.given)),
+        dim(format!("{}, set-points in {unit}{held}", source.given)),
         indented(&table(&rows, &aligns), 2),
         result.solutions.len(),
     )

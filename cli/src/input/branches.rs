@@ -1,11 +1,11 @@
 //! Every branch of an arm's inverse kinematics, as the kernels of its robot file have it.
 
 use nalgebra::{Isometry3, Vector6};
-use stiffarm_codegen::derive::{AsItIs, Given};
-use stiffarm_codegen::robot::Refused;
+use stiffarm_codegen::derive::{AnyArm, AnyBranch, Given, any_arm};
+use stiffarm_codegen::robot::{ClosedForm, Refused};
 use stiffarm_gap::compensate::reach::Target;
 use stiffarm_gap::whole::Situation;
-use stiffarm_kernels::{Pose, Solution, Solutions};
+use stiffarm_kernels::Pose;
 
 use super::source::Source;
 use crate::terminal::failure::Failure;
@@ -15,9 +15,9 @@ pub const WITHIN: f64 = 1e-6;
 
 /// An arm that has a closed form, or is near one that has.
 pub struct Branches {
-    arm: AsItIs,
-    /// Limits of the joints, rad.
-    pub limits: [Option<[f64; 2]>; 6],
+    arm: Box<dyn AnyArm>,
+    /// What makes its closed form.
+    pub form: ClosedForm,
     /// The base in the world.
     base: Isometry3<f64>,
 }
@@ -34,10 +34,7 @@ impl Branches {
         }
         let refused = |Refused { message, help }| Failure::with_help(message, help);
         let form = robot.nearest_closed_form().map_err(refused)?;
-        let limits =
-            core::array::from_fn(|joint| robot.joints.get(joint).and_then(|joint| joint.limits));
-        let base = source.arm()?.base;
-        Ok(Branches { arm: AsItIs::new(&robot, form, Given::default()), limits, base })
+        Ok(Branches { arm: any_arm(&robot, form), form, base: source.arm()?.base })
     }
 
     /// Those of a robot file that has some.
@@ -49,9 +46,9 @@ impl Branches {
     pub fn at(
         &self,
         pose: &Isometry3<f64>,
-        near: &[f64; 6],
+        near: &[f64],
         (wrench, given): (Option<&Vector6<f64>>, &Given),
-    ) -> Solutions<f64, 6, 8> {
+    ) -> Vec<AnyBranch> {
         let rotation = pose.rotation.to_rotation_matrix();
         let column = |k: usize| core::array::from_fn(|row| rotation[(row, k)]);
         let rotation = [column(0), column(1), column(2)];
@@ -62,7 +59,7 @@ impl Branches {
             let (force, moment) = (turned(0), turned(3));
             [force.x, force.y, force.z, moment.x, moment.y, moment.z]
         });
-        self.arm.with(given).solutions(&pose, near, wrench.as_ref())
+        self.arm.branches(given, &pose, near, wrench.as_ref())
     }
 
     /// The branches of a loaded arm that reach a target within the limits; none where any orientation will do.
@@ -71,11 +68,9 @@ impl Branches {
         let pose = Isometry3::from_parts(target.position.into(), rotation);
         let sides = at.direction.iter().flatten().map(|side| f64::from(*side)).collect();
         let given = Given { sides, warming: at.warming.unwrap_or_default() };
-        let near = [0.0; 6];
-        let found = self.at(&pose, &near, (Some(&at.load), &given));
+        let found = self.at(&pose, &[], (Some(&at.load), &given)).into_iter();
         // Near enough for the search to end there: what bends beside the joints is of first order here.
-        let reached = found.reached(1e-2, 1e-2);
-        let within = |branch: Solution<f64, 6>| branch.turned(&near, &self.limits);
-        reached.filter_map(within).map(|branch| branch.q.to_vec()).collect()
+        let reached = found.filter(|b| b.within && b.distance <= 1e-2 && b.tilt <= 1e-2);
+        reached.map(|branch| branch.q).collect()
     }
 }

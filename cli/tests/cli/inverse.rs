@@ -52,6 +52,39 @@ fn every_branch_stands_at_the_pose() {
     }
 }
 
+/// Of seven joints every branch keeps the one that is given; fewer joints, and prismatic ones, have the branches that they have.
+#[test]
+fn arms_of_other_joints_stand_at_the_pose() {
+    let q = "0.1,0.2,0.3,-1.5,0.2,1.6,0.4";
+    for (robot, q, count, wrist) in [
+        ("panda", q, 8, true),
+        ("iiwa14", q, 8, true),
+        ("stanford", "0.1,0.2,0.5,0.3,0.7,0.2", 8, true),
+        ("bicchi_3r", "0.1,0.2,0.3", 2, false),
+    ] {
+        let stands = pose(robot, q, &[]);
+        let rotation = nalgebra::Matrix3::from_row_slice(&stands[..9]);
+        let turn = nalgebra::UnitQuaternion::from_matrix(&rotation).scaled_axis();
+        let at: Vec<String> =
+            stands[9..].iter().chain(turn.iter()).map(|x| format!("{x:?}")).collect();
+        let found = solutions(robot, &at.join(","), &["--q", q]);
+        assert_eq!(found.len(), count, "{robot}");
+        let given: Vec<f64> = q.split(',').map(|x| x.parse().expect("a number")).collect();
+        let reached: Vec<_> = found.iter().filter(|branch| branch["reached"] == true).collect();
+        let off = |branch: &&&serde_json::Value| {
+            let values = branch["q"].as_array().expect("joints").iter();
+            let each = values.zip(&given).map(|(q, x)| (q.as_f64().expect("a number") - x).abs());
+            each.fold(0.0, f64::max) < 1e-6
+        };
+        assert!(reached.iter().any(|branch| off(&branch)), "{robot}: {found:?}");
+        if given.len() == 7 {
+            assert!(found.iter().all(|branch| branch["q"][6].as_f64() == Some(given[6])));
+        }
+        let screen = stiffarm(&["eval", robot, "--pose", &at.join(","), "--q", q]).good();
+        assert_eq!(screen.contains("wrist"), wrist, "{screen}");
+    }
+}
+
 /// Limits and whole turns; a load moves set-points; what is out of reach says by how much.
 #[test]
 fn limits_turns_and_reach_are_told() {

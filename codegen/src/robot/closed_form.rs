@@ -3,12 +3,16 @@
 //! Only what is exactly zero counts: an axis that misses another by a micrometre does not meet it. Such an arm has the closed
 //! form of the [nearest](super::nearest) table, and steps behind it.
 
+use super::families::{Chain, family};
 use super::frames::Refused;
-use super::model::{Angle, Convention, Motion, Robot, Value};
+use super::model::Robot;
+use super::sliding::Sliding;
 
-/// The closed form of six revolute joints.
+/// The closed form of an arm.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ClosedForm {
+    /// The joint, from 0, whose value is given: the last or the first of seven.
+    pub given: Option<usize>,
     /// Whether it is that of the arm read from tip to base.
     pub reversed: bool,
     /// What of its geometry it is made of.
@@ -18,13 +22,27 @@ pub struct ClosedForm {
 /// What makes a closed form, in the order from base to tip, or from tip to base.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Family {
-    /// Axes 4, 5, 6 meet in a point, and of the first three two are special.
-    SphericalWrist(Position),
-    /// Axes 2, 3, 4 are parallel, and 5 meets 6.
-    ThreeParallel,
+    /// Three joints place a point that those behind them only turn about.
+    Wrist {
+        /// What the first three are.
+        position: Position,
+        /// Joints behind them, from 0 to 3: the axes of three meet in the point.
+        behind: usize,
+    },
+    /// Three axes are parallel.
+    ThreeParallel {
+        /// Whether a joint stands before them.
+        before: bool,
+        /// Joints behind them, from 0 to 2: the axes of two meet.
+        behind: usize,
+        /// Whether the joint behind them is prismatic and moves along them.
+        lift: bool,
+    },
+    /// Two parallel axes place a point of the plane.
+    TwoParallel,
 }
 
-/// What the first three axes of an arm with a spherical wrist are.
+/// What the first three axes of an arm with a wrist are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Position {
     /// 2 and 3 are parallel.
@@ -35,47 +53,93 @@ pub enum Position {
     FirstMeetsSecond,
     /// 2 and 3 meet.
     SecondMeetsThird,
+    /// None of them is near being parallel to the next or meeting it.
+    General,
+    /// Some of them are prismatic.
+    Sliding(Sliding),
 }
 
 impl ClosedForm {
     /// What makes it, in words.
     pub fn sentence(self) -> String {
+        let shift = usize::from(self.given == Some(0));
         let axes = |numbers: &[usize]| {
-            let each = numbers.iter().map(|k| if self.reversed { 7 - k } else { *k });
+            let each = numbers.iter().map(|k| if self.reversed { 7 - k } else { *k } + shift);
             let mut each: Vec<usize> = each.collect();
             each.sort_unstable();
             each.iter().map(usize::to_string).collect::<Vec<_>>().join(", ")
         };
-        match self.family {
-            Family::ThreeParallel => {
-                format!("axes {} are parallel, {} meet", axes(&[2, 3, 4]), axes(&[5, 6]))
+        let shape = match self.family {
+            Family::ThreeParallel { before, behind, lift } => {
+                let first = 1 + usize::from(before);
+                let parallel = axes(&[first, first + 1, first + 2]);
+                let along = if lift { ", and the last joint slides along them" } else { "" };
+                match behind {
+                    2 => format!("axes {parallel} are parallel, {} meet", axes(&[5, 6])),
+                    _ => format!("axes {parallel} are parallel{along}"),
+                }
             }
-            Family::SphericalWrist(position) => {
-                let (pair, how) = match position {
-                    Position::SecondParallelThird => ([2, 3], "are parallel"),
-                    Position::FirstParallelSecond => ([1, 2], "are parallel"),
-                    Position::FirstMeetsSecond => ([1, 2], "meet"),
-                    Position::SecondMeetsThird => ([2, 3], "meet"),
+            Family::Wrist { position, behind } => {
+                let first = match position {
+                    Position::SecondParallelThird => format!("{} are parallel", axes(&[2, 3])),
+                    Position::FirstParallelSecond => format!("{} are parallel", axes(&[1, 2])),
+                    Position::FirstMeetsSecond => format!("{} meet", axes(&[1, 2])),
+                    Position::SecondMeetsThird => format!("{} meet", axes(&[2, 3])),
+                    Position::General => format!("{} in general position", axes(&[1, 2, 3])),
+                    Position::Sliding(sliding) => {
+                        format!("{} {}", axes(&[1, 2, 3]), sliding.words())
+                    }
                 };
-                format!("axes {} meet in a point, {} {how}", axes(&[4, 5, 6]), axes(&pair))
+                match behind {
+                    3 => format!("axes {} meet in a point, {first}", axes(&[4, 5, 6])),
+                    2 => format!("axes {} meet, {first}", axes(&[4, 5])),
+                    _ => format!("axes {first}"),
+                }
             }
+            Family::TwoParallel => "axes 1, 2 are parallel".to_owned(),
+        };
+        match self.given {
+            Some(joint) => format!("joint {} is given, {shape}", joint + 1),
+            None => shape,
         }
     }
-}
 
-/// The fixed transform from one joint axis to the next, and how far along the first the next one's normal stands.
-struct Between<'r> {
-    a: &'r Value,
-    alpha: &'r Angle,
-}
-
-impl Between<'_> {
-    fn parallel(&self) -> bool {
-        matches!(self.alpha, Angle::Pi(turn) if *turn.denom() == 1) || self.alpha.is_zero()
+    /// What the bits of a branch's number choose, from the highest: each one of two.
+    pub fn bits(self) -> Vec<&'static str> {
+        let (shoulder, elbow, wrist) = match self.family {
+            Family::Wrist { position: Position::Sliding(sliding), behind } => {
+                let (shoulder, elbow) = sliding.bits();
+                (shoulder, elbow, behind == 3)
+            }
+            Family::Wrist { behind, .. } => (true, true, behind == 3),
+            Family::ThreeParallel { before, behind, .. } => (before, true, behind == 2),
+            Family::TwoParallel => (false, true, false),
+        };
+        let each = [("shoulder", shoulder), ("elbow", elbow), ("wrist", wrist)];
+        each.into_iter().filter(|(_, has)| *has).map(|(name, _)| name).collect()
     }
 
-    fn meets(&self) -> bool {
-        self.a.is_zero() && !self.parallel()
+    /// The number of branches.
+    pub fn branches(self) -> usize {
+        1 << self.bits().len()
+    }
+
+    /// The joints, from 0, that the closed form finds, of so many.
+    pub(crate) fn inner(self, dof: usize) -> core::ops::Range<usize> {
+        match self.given {
+            None => 0..dof,
+            Some(0) => 1..dof,
+            Some(_) => 0..dof - 1,
+        }
+    }
+
+    /// Whether it is one of a spherical wrist, or of three parallel axes, of six joints that turn.
+    pub(crate) fn is_of_six(self) -> bool {
+        match self.family {
+            Family::Wrist { behind, .. } => behind == 3,
+            Family::ThreeParallel { behind, .. } => behind == 2,
+            Family::TwoParallel => false,
+        }
     }
 }
 
@@ -85,83 +149,48 @@ impl Robot {
     /// # Errors
     /// [`Refused`] where it has none that is known: what stands in the way.
     pub fn closed_form(&self) -> Result<ClosedForm, Refused> {
-        const FAMILIES: &str = "a closed form is known of six revolute joints, of which the last three axes meet in a \
-                                point and 1 and 2, or 2 and 3, are parallel or meet; or of which 2, 3, 4 are parallel \
-                                and 5 meets 6; or the same from tip to base";
+        const FAMILIES: &str = "a closed form is known of six joints, of which the last three axes meet in a point and \
+                                the first three turn, or some of them slide; or of which 2, 3, 4 are parallel and 5 meets 6; or the same from tip to base; of seven that \
+                                are such an arm without the first or the last; and of fewer (docs/inverse.md)";
         let no = |what: String| {
             let message = format!("no closed form of the inverse kinematics: {what}");
             Refused { message, help: FAMILIES.to_owned() }
         };
-        if self.dof() != 6 {
-            return Err(no(format!("the arm has {} joints", self.dof())));
-        }
         for joint in &self.joints {
-            if joint.motion == Motion::Prismatic {
-                return Err(no(format!("joint `{}` is prismatic", joint.name)));
-            }
             if !joint.beta.is_zero() {
                 return Err(no(format!("the row of `{}` has a beta", joint.name)));
             }
         }
-        let rows = &self.joints[self.first_link()..][..5];
-        let mut links: Vec<Between> =
-            rows.iter().map(|row| Between { a: &row.a, alpha: &row.alpha }).collect();
-        let mut offsets: Vec<&Value> = self.joints.iter().map(|joint| &joint.d).collect();
-        let forwards = family(&links, &offsets);
-        links.reverse();
-        offsets.reverse();
-        match (forwards, family(&links, &offsets)) {
-            (Ok(family), _) => Ok(ClosedForm { reversed: false, family }),
-            (_, Ok(family)) => Ok(ClosedForm { reversed: true, family }),
-            (Err(what), _) => Err(no(what.to_owned())),
-        }
-    }
-
-    /// The row, from 0, that holds the link from axis 1 to axis 2.
-    pub(super) fn first_link(&self) -> usize {
-        match self.convention {
-            Convention::Standard => 0,
-            Convention::Modified => 1,
-        }
-    }
-}
-
-fn family(links: &[Between], offsets: &[&Value]) -> Result<Family, &'static str> {
-    let [first, second, third, fourth, fifth] = links else { return Err("it has not six joints") };
-    let wrist = fourth.meets() && fifth.meets() && offsets[4].is_zero();
-    if second.parallel() && third.parallel() && fifth.meets() {
-        return match first.parallel()
-            || fourth.parallel()
-            || second.a.is_zero()
-            || third.a.is_zero()
-        {
-            true => Err("of axes 1 to 5 more than 2, 3, 4 are parallel, or two of those are one"),
-            false => Ok(Family::ThreeParallel),
+        let n = self.dof();
+        // Axes in general position take many more operations.
+        let form = |general: bool| match n {
+            2..=6 => self.form_of(0..n, None, general),
+            7 => self.form_of(0..6, Some(6), general).or_else(|last| {
+                self.form_of(1..7, Some(0), general).map_err(|first| {
+                    format!("with joint 7 given, {last}; with joint 1 given, {first}")
+                })
+            }),
+            _ => Err(format!("the arm has {n} joints")),
         };
+        form(false).or_else(|_| form(true)).map_err(no)
     }
-    if !wrist {
-        return Err(
-            "axes 4, 5, 6 do not meet in a point, nor are 2, 3, 4 parallel with 5 meeting 6",
-        );
+
+    /// Of neighbouring joints, with another one given.
+    fn form_of(
+        &self,
+        joints: core::ops::Range<usize>,
+        given: Option<usize>,
+        general: bool,
+    ) -> Result<ClosedForm, String> {
+        let first = joints.start;
+        let chain = || Chain::new(self, joints.clone());
+        let six = joints.len() == 6;
+        let family = |chain: &Chain| family(chain, general);
+        match (family(&chain()), six.then(|| family(&chain().reversed()))) {
+            (Ok(family), _) => Ok(ClosedForm { given, reversed: false, family }),
+            (_, Some(Ok(family))) => Ok(ClosedForm { given, reversed: true, family }),
+            (Err(what), _) if first > 0 => Err(format!("{what} (counted from joint 2)")),
+            (Err(what), _) => Err(what.to_owned()),
+        }
     }
-    if third.a.is_zero() && (offsets[3].is_zero() || third.parallel()) {
-        return Err("the point where axes 4, 5, 6 meet is on axis 3");
-    }
-    if first.parallel() && second.parallel() {
-        return Err("axes 1, 2, 3 are parallel, and the wrist's point cannot leave a plane");
-    }
-    if [first, second].iter().any(|link| link.parallel() && link.a.is_zero()) {
-        return Err("two of the first three axes are one");
-    }
-    if first.meets() && second.meets() && offsets[1].is_zero() {
-        return Err("axes 1, 2, 3 meet in a point, from which the wrist's keeps its distance");
-    }
-    let position = match (first, second) {
-        (_, second) if second.parallel() => Position::SecondParallelThird,
-        (first, _) if first.parallel() => Position::FirstParallelSecond,
-        (first, _) if first.meets() => Position::FirstMeetsSecond,
-        (_, second) if second.meets() => Position::SecondMeetsThird,
-        _ => return Err("of axes 1, 2, 3 none is parallel to the next or meets it"),
-    };
-    Ok(Family::SphericalWrist(position))
 }

@@ -9,6 +9,7 @@ mod closed_form;
 pub(crate) mod decimal;
 mod diagnostic;
 mod dimension;
+mod families;
 pub(crate) mod frames;
 pub(crate) mod inertia;
 pub(crate) mod lexeme;
@@ -20,6 +21,7 @@ pub(crate) mod pi;
 pub(crate) mod problem;
 pub(crate) mod quantity;
 mod section;
+mod sliding;
 pub(crate) mod space;
 pub(crate) mod suggest;
 pub(crate) mod units;
@@ -42,5 +44,6 @@ pub use model::{
 };
 pub(crate) use names::is_keyword;
 pub(crate) use nearest::{DEFLECTION, STEPPED};
+pub use sliding::Sliding;
 #[cfg(feature = "macro")]
 pub(crate) use suggest::closest;

@@ -10,7 +10,7 @@ use crate::number::Number;
 
 /// What of an arm's size, and of a radian, an entry may differ from that of the nearest table. Makers build to a tenth of
 /// it; at all of it, steps still lead from the one arm to the other (`codegen/tests/inverse/steps.rs`).
-const OFF: f64 = 1e-2;
+pub(super) const OFF: f64 = 1e-2;
 
 /// Angles between axes that are so near to quarter turns, rad, count as such in the nearest table: its closed form is then half
 /// as long. It is a few times what makers build to; an angle that is meant is left alone.
@@ -40,14 +40,29 @@ impl Robot {
             Ok(form) => return Ok(form),
             Err(refused) => refused,
         };
-        let turns = self.joints.iter().all(|joint| joint.motion == Motion::Revolute);
-        if self.dof() != 6 || !turns || !self.symbols().is_empty() {
+        let given: &[Option<usize>] = match self.dof() {
+            6 => &[None],
+            7 => &[Some(6), Some(0)],
+            _ => &[],
+        };
+        if !self.symbols().is_empty() {
             return Err(refused);
         }
-        let families = POSITIONS.map(Family::SphericalWrist).into_iter();
-        let families = families.chain([Family::ThreeParallel]);
+        let wrist = |position| Family::Wrist { position, behind: 3 };
+        let parallel = Family::ThreeParallel { before: true, behind: 2, lift: false };
+        let families = POSITIONS.map(wrist).into_iter().chain([parallel]);
         let forms = families
-            .flat_map(|family| [false, true].map(|reversed| ClosedForm { reversed, family }));
+            .flat_map(|family| [false, true].map(|reversed| (reversed, family)))
+            .flat_map(|(reversed, family)| {
+                let with =
+                    move |given: &Option<usize>| ClosedForm { given: *given, reversed, family };
+                given.iter().map(with)
+            });
+        let turns = |form: &ClosedForm| {
+            let mut inner = self.joints[form.inner(self.dof())].iter();
+            inner.all(|joint| joint.motion == Motion::Revolute)
+        };
+        let forms = forms.filter(turns);
         let near = forms.filter_map(|form| {
             let table = self.nearest(form);
             (table.closed_form() == Ok(form)).then(|| (self.off(&table), form))
@@ -79,25 +94,28 @@ impl Robot {
         if self.closed_form() == Ok(form) {
             return table;
         }
-        let first = self.first_link();
+        let start = form.inner(self.dof()).start;
+        let first = self.first_link() + start;
         // Links and offsets as the form counts them, from its own base.
         let link = |k: usize| first + if form.reversed { 5 - k } else { k - 1 };
-        let offset = |k: usize| if form.reversed { 6 - k } else { k - 1 };
+        let offset = |k: usize| start + if form.reversed { 6 - k } else { k - 1 };
         for joint in &mut table.joints {
             joint.beta = Angle::ZERO;
             snap(&mut joint.alpha, SQUARE);
         }
         let (meeting, parallel): (&[usize], &[usize]) = match form.family {
-            Family::ThreeParallel => (&[5], &[2, 3]),
-            Family::SphericalWrist(position) => match position {
+            Family::ThreeParallel { .. } => (&[5], &[2, 3]),
+            Family::TwoParallel => (&[], &[1]),
+            Family::Wrist { position, .. } => match position {
                 Position::SecondParallelThird => (&[4, 5], &[2]),
                 Position::FirstParallelSecond => (&[4, 5], &[1]),
                 Position::FirstMeetsSecond => (&[1, 4, 5], &[]),
                 Position::SecondMeetsThird => (&[2, 4, 5], &[]),
+                Position::General | Position::Sliding(_) => (&[4, 5], &[]),
             },
         };
         meeting.iter().for_each(|k| table.joints[link(*k)].a = Value::ZERO);
-        if matches!(form.family, Family::SphericalWrist(_)) {
+        if matches!(form.family, Family::Wrist { .. }) {
             table.joints[offset(5)].d = Value::ZERO;
         }
         parallel.iter().for_each(|k| snap(&mut table.joints[link(*k)].alpha, OFF));

@@ -4,7 +4,7 @@ use stiffarm_codegen::derive::{AsItIs, Given, steps};
 use stiffarm_codegen::number::Number;
 use stiffarm_codegen::robot::{Angle, Robot, Value};
 use stiffarm_draws::Draws;
-use stiffarm_kernels::{Pose, Steps};
+use stiffarm_kernels::{Pose, Steps, nearest_branch};
 
 use super::arms::{Arm, FAMILIES, random, reference};
 
@@ -33,7 +33,8 @@ fn missed(by: f64, draws: &mut Draws) -> (usize, usize) {
             let form =
                 robot.nearest_closed_form().unwrap_or_else(|no| panic!("{no:?} {}", exact.name));
             assert!(robot.closed_form().is_err());
-            let (arm, forward) = (AsItIs::new(&robot, form, Given::default()), reference(&robot));
+            let (arm, forward) =
+                (AsItIs::<6>::new(&robot, form, Given::default()), reference(&robot));
             for _ in 0..40 {
                 let q: [f64; 6] = draws.array(-3.1, 3.1);
                 let at = forward.pose(&q);
@@ -43,8 +44,7 @@ fn missed(by: f64, draws: &mut Draws) -> (usize, usize) {
                     rotation: [column(0), column(1), column(2)],
                     position: at.translation.vector.into(),
                 };
-                let any = (f64::MAX, f64::MAX);
-                let begin = arm.closed_form(&pose, &q).nearest(&q, &[None; 6], any);
+                let begin = nearest_branch(arm.closed_form(&pose, &q), &q, &[None; 6]);
                 let begin = begin.expect("a branch").q;
                 let (found, [distance, tilt]) =
                     arm.follow(begin, &pose, (None, Steps::MOST)).expect("numbers");
@@ -94,7 +94,7 @@ fn an_arm_that_grows_takes_steps() {
     assert_eq!(steps(&robot, form).unloaded, 0);
     let grown = robot.with_effects().expect("an effect of kernels");
     assert!((2..=3).contains(&steps(&grown, form).unloaded));
-    let arm = AsItIs::new(&grown, form, Given { warming: 20.0, ..Given::default() });
+    let arm = AsItIs::<6>::new(&grown, form, Given { warming: 20.0, ..Given::default() });
     let (q, pose) = ([0.3, 1.0, -0.4, 0.2, 0.6, -0.5], reference(&robot));
     let mut at = pose.pose(&q);
     at.translation.vector *= 1.0 + 20.0 * 12e-6;
@@ -104,8 +104,9 @@ fn an_arm_that_grows_takes_steps() {
         rotation: [column(0), column(1), column(2)],
         position: at.translation.vector.into(),
     };
-    let found = arm.solutions(&pose, &q, None);
-    let nearest = found.nearest(&q, &[None; 6], (1e-9, 1e-9)).expect("the posture").q;
+    let found = arm.solutions(&pose, &q, (None, Steps::MOST)).into_iter();
+    let found = found.filter(|branch| branch.distance < 1e-9 && branch.tilt < 1e-9);
+    let nearest = nearest_branch(found, &q, &[None; 6]).expect("the posture").q;
     assert!(nearest.iter().zip(&q).all(|(a, b)| (a - b).abs() < 1e-9), "{nearest:?}");
 }
 

@@ -5,7 +5,7 @@ mod steps;
 
 use core::f64::consts::TAU;
 
-use crate::{Arm, Pose, Scalar, Unstable};
+use crate::{Arm, Motion, Pose, Scalar, Unstable};
 
 #[doc(hidden)]
 pub use set_points::unloaded;
@@ -36,8 +36,12 @@ pub trait Inverse<const N: usize, const K: usize, S: Scalar = f64>: JointValues<
     /// How many steps follow the closed form.
     const STEPS: Steps;
 
+    /// The joint, from 0, whose value every branch has as `near` has it: of seven joints, the pose leaves one free.
+    const GIVEN: Option<usize> = None;
+
     /// Every branch of the closed form at a pose of the tool, base axes: joint values by the arm's table, or by the nearest
-    /// table that has a closed form. A joint that the pose leaves free stays where `near`, readings, has it.
+    /// table that has a closed form. A joint that the pose leaves free stays where `near`, readings, has it, and so does
+    /// [the joint that is given](Inverse::GIVEN).
     fn closed_form(&self, pose: &Pose<S>, near: &[S; N]) -> Solutions<S, N, K>;
 
     /// Every branch of the rigid arm at a pose of the tool, base axes: the readings at which its tool stands there. It is
@@ -49,14 +53,17 @@ pub trait Inverse<const N: usize, const K: usize, S: Scalar = f64>: JointValues<
 /// Every branch of an inverse kinematics, whether it reaches the pose or not, in an order that is stable along a path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Solutions<S, const N: usize, const K: usize> {
-    /// Joint values of each branch, rad, from −π to π. Of eight branches shoulder, elbow and wrist are the bits of the
-    /// number, from the highest.
+    /// Joint values of each branch, rad, from −π to π (prismatic joint: m). Of eight branches shoulder, elbow and wrist are
+    /// the bits of the number, from the highest; of fewer those of them that the arm has.
     pub q: [[S; N]; K],
     /// How far the tool's origin is from the pose's, m: rounding where the branch reaches it.
     pub distance: [S; K],
     /// How far the last axis is from the pose's, as the length between unit vectors: rounding where the branch reaches it.
-    /// Behind [`Steps`] it is how far the axes are turned from the pose's, twice the sine of half the angle.
+    /// Behind [`Steps`], and of fewer than six joints, it is how far the axes are turned from the pose's, twice the sine of
+    /// half the angle.
     pub tilt: [S; K],
+    /// Which joints turn: these alone have whole turns.
+    pub motion: [Motion; N],
 }
 
 /// One branch.
@@ -64,12 +71,14 @@ pub struct Solutions<S, const N: usize, const K: usize> {
 pub struct Solution<S, const N: usize> {
     /// Its number.
     pub branch: usize,
-    /// Its joint values, rad.
+    /// Its joint values, rad (prismatic joint: m).
     pub q: [S; N],
     /// How far the tool's origin is from the pose's, m.
     pub distance: S,
     /// How far the axes are turned from the pose's, as in [`Solutions::tilt`].
     pub tilt: S,
+    /// Which joints turn.
+    pub motion: [Motion; N],
 }
 
 impl<S: Scalar, const N: usize, const K: usize> Solutions<S, N, K> {
@@ -93,6 +102,7 @@ impl<S: Scalar + PartialOrd + Into<f64>, const N: usize, const K: usize> Solutio
             q: self.q[branch],
             distance: self.distance[branch],
             tilt: self.tilt[branch],
+            motion: self.motion,
         })
     }
 
@@ -110,18 +120,7 @@ impl<S: Scalar + PartialOrd + Into<f64>, const N: usize, const K: usize> Solutio
         limits: &[Option<[f64; 2]>; N],
         (distance, tilt): (f64, f64),
     ) -> Option<Solution<S, N>> {
-        let mut best: Option<(f64, Solution<S, N>)> = None;
-        for solution in self.reached(distance, tilt) {
-            let Some(turned) = solution.turned(near, limits) else { continue };
-            let change = turned.q.iter().zip(near).fold(0.0, |sum, (q, near)| {
-                let by: f64 = (*q - *near).into();
-                sum + by * by
-            });
-            if best.is_none_or(|(least, _)| change < least) {
-                best = Some((change, turned));
-            }
-        }
-        best.map(|(_, solution)| solution)
+        nearest_branch(self.reached(distance, tilt), near, limits)
     }
 
     /// The first, in the order of [`Solutions::nearest`], whose readings by `follow` are within the limits and miss the
@@ -139,13 +138,14 @@ impl<S: Scalar + PartialOrd + Into<f64>, const N: usize, const K: usize> Solutio
             })
         };
         for _ in 0..K {
-            let Solution { branch, q, .. } = self.nearest(near, limits, (f64::MAX, f64::MAX))?;
+            let Solution { branch, q, motion, .. } =
+                self.nearest(near, limits, (f64::MAX, f64::MAX))?;
             if let Some((q, [d, t])) = follow(q)
                 && within(&q)
                 && d.into() <= distance
                 && t.into() <= tilt
             {
-                return Some(Solution { branch, q, distance: d, tilt: t });
+                return Some(Solution { branch, q, distance: d, tilt: t, motion });
             }
             self.distance[branch] = S::lit(f64::INFINITY);
         }
@@ -157,11 +157,40 @@ impl<S: Scalar + Into<f64>, const N: usize> Solution<S, N> {
     /// Each joint by whole turns as near to `near` as its limits allow; `None` where no turn is within them.
     pub fn turned(&self, near: &[S; N], limits: &[Option<[f64; 2]>; N]) -> Option<Self> {
         let mut turned = *self;
-        for ((q, near), limits) in turned.q.iter_mut().zip(near).zip(limits) {
-            *q = S::lit(unwound((*q).into(), (*near).into(), *limits)?);
+        let each = turned.q.iter_mut().zip(&self.motion);
+        for (((q, motion), near), limits) in each.zip(near).zip(limits) {
+            let value: f64 = (*q).into();
+            match (motion, limits) {
+                (Motion::Revolute, _) => *q = S::lit(unwound(value, (*near).into(), *limits)?),
+                (Motion::Prismatic, Some([low, high])) if !(low..=high).contains(&&value) => {
+                    return None;
+                }
+                (Motion::Prismatic, _) => {}
+            }
         }
         Some(turned)
     }
+}
+
+/// Of some branches that with the least change of the joints from `near`, by the sum of squares; each joint by whole turns as
+/// near as its limits allow. `None` where no branch is within the limits.
+pub fn nearest_branch<S: Scalar + Into<f64>, const N: usize>(
+    branches: impl IntoIterator<Item = Solution<S, N>>,
+    near: &[S; N],
+    limits: &[Option<[f64; 2]>; N],
+) -> Option<Solution<S, N>> {
+    let mut best: Option<(f64, Solution<S, N>)> = None;
+    for solution in branches {
+        let Some(turned) = solution.turned(near, limits) else { continue };
+        let change = turned.q.iter().zip(near).fold(0.0, |sum, (q, near)| {
+            let by: f64 = (*q - *near).into();
+            sum + by * by
+        });
+        if best.is_none_or(|(least, _)| change < least) {
+            best = Some((change, turned));
+        }
+    }
+    best.map(|(_, solution)| solution)
 }
 
 /// The angle that is so by whole turns, within the limits, nearest to another.
@@ -187,6 +216,7 @@ mod tests {
         q: [[0.1, 3.0], [-3.1, 0.2], [0.0, 0.0]],
         distance: [0.0, 1e-12, 0.3],
         tilt: [0.0, 0.0, 0.0],
+        motion: [Motion::Revolute; 2],
     };
 
     #[test]
@@ -200,6 +230,14 @@ mod tests {
         let limits = [Some([-4.0, 3.0]), Some([-1.0, 1.0])];
         assert_eq!(nearest([3.1, 0.2], limits).map(|s| s.q), Some([-3.1, 0.2]));
         assert_eq!(nearest([0.0; 2], [Some([1.0, 2.0]), None]), None);
+    }
+
+    #[test]
+    fn prismatic_joints_have_no_whole_turns() {
+        let slides = Solutions { motion: [Motion::Revolute, Motion::Prismatic], ..SOLUTIONS };
+        let nearest = |limits| slides.nearest(&[0.0, 40.0], &[None, limits], (0.0, 0.0));
+        assert_eq!(nearest(None).map(|s| s.q), Some([0.1, 3.0]));
+        assert_eq!(nearest(Some([4.0, 50.0])), None);
     }
 
     #[test]

@@ -31,8 +31,8 @@ pub trait Elastic<const N: usize, S: Scalar = f64>: has::DeflectionWithGravity<N
     fn gives(&self, posture: &Self::Posture, wrench: &[S; 6]) -> Gives<S, N>;
 }
 
-/// A rigid arm.
-struct Rigid<'a, A>(&'a A);
+/// A rigid arm, and the joint that its steps hold.
+struct Rigid<'a, A>(&'a A, Option<usize>);
 
 impl<S: Scalar, const N: usize, A> AtRest<S, N> for Rigid<'_, A>
 where
@@ -41,7 +41,7 @@ where
     #[inline(always)]
     fn stands(&self, joints: &[S; N]) -> Result<(Pose<S>, [[S; 6]; N]), Unstable> {
         let posture = self.0.at_joints(joints);
-        Ok((self.0.pose(&posture), self.0.jacobian(&posture)))
+        Ok((self.0.pose(&posture), held(self.0.jacobian(&posture), self.1)))
     }
 
     #[inline(always)]
@@ -55,8 +55,17 @@ where
     }
 }
 
-/// An arm under a wrench and its weights.
-struct Loaded<'a, A, S>(&'a A, &'a [S; 6]);
+/// A Jacobian of which a joint moves nothing.
+#[inline(always)]
+fn held<S: Scalar, const N: usize>(mut jacobian: [[S; 6]; N], joint: Option<usize>) -> [[S; 6]; N] {
+    if let Some(column) = joint.and_then(|joint| jacobian.get_mut(joint)) {
+        *column = [S::lit(0.0); 6];
+    }
+    jacobian
+}
+
+/// An arm under a wrench and its weights, and the joint that its steps hold.
+struct Loaded<'a, A, S>(&'a A, &'a [S; 6], Option<usize>);
 
 impl<S: Scalar, const N: usize, A> AtRest<S, N> for Loaded<'_, A, S>
 where
@@ -64,18 +73,18 @@ where
 {
     #[inline(always)]
     fn stands(&self, joints: &[S; N]) -> Result<(Pose<S>, [[S; 6]; N]), Unstable> {
-        let Loaded(arm, wrench) = self;
+        let Loaded(arm, wrench, joint) = self;
         let posture = arm.at_joints(joints);
         let pose = match A::LINKS {
             true => arm.pose(&posture).displaced(&arm.gives(&posture, wrench).tool),
             false => arm.pose(&posture),
         };
-        Ok((pose, arm.jacobian(&posture)))
+        Ok((pose, held(arm.jacobian(&posture), *joint)))
     }
 
     #[inline(always)]
     fn gives(&self, joints: &[S; N]) -> Result<[S; N], Unstable> {
-        let Loaded(arm, wrench) = self;
+        let Loaded(arm, wrench, _) = self;
         let posture = arm.at_joints(joints);
         // Where the arm is at rest is where it has to bear the load.
         let surely = |most: [f64; 2]| margin(wrench, most.map(S::lit)).is_positive();
@@ -103,7 +112,7 @@ where
     A: Inverse<N, K, S> + has::Pose<N, S> + has::Jacobian<N, S>,
 {
     let steps = (A::STEPS.unloaded, A::STEPS.readings);
-    arm.closed_form(pose, near).each(|q| Rigid(arm).follow(q, pose, steps))
+    arm.closed_form(pose, near).each(|q| Rigid(arm, A::GIVEN).follow(q, pose, steps))
 }
 
 /// The set-points of an arm that gives under its load and its weights: the readings at which its tool, at rest, stands at a
@@ -157,5 +166,5 @@ fn at_rest<S: Scalar, const N: usize, const K: usize, A>(
 where
     A: SetPoints<N, K, S>,
 {
-    Loaded(arm, wrench).follow(joints, pose, (A::STEPS.loaded, A::STEPS.readings))
+    Loaded(arm, wrench, A::GIVEN).follow(joints, pose, (A::STEPS.loaded, A::STEPS.readings))
 }

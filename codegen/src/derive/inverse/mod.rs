@@ -8,32 +8,35 @@
 //! Each later angle is worked out from the values that the earlier ones have, roundings and all: an angle that the pose
 //! barely determines is wrong alone, and the pose that the angles give is not.
 
+mod any;
+mod displacement;
 mod gives;
 mod layout;
+mod one_slide;
 mod parallel;
+mod pieper;
+mod plane;
+mod point;
 mod position;
+mod sliding;
 mod steps;
 mod subproblem;
 mod wrist;
 
+pub use any::{AnyArm, Branch as AnyBranch, any_arm};
 pub use gives::gives;
-use layout::Layout;
+use layout::{Layout, Value};
 pub use steps::{AsItIs, steps};
-use subproblem::Pair;
 
 use super::own::{Held, Own, OwnInput, Quantity, Size};
 use super::program::{Block, Program};
 use super::readings::Readings;
 use crate::expr::Expr;
-use crate::robot::{CLOSED_FORM, ClosedForm, Family, INVERSE_KINEMATICS, Robot};
+use crate::robot::{CLOSED_FORM, ClosedForm, Family, INVERSE_KINEMATICS, Motion, Robot};
 
-/// Solutions of six revolute joints: of shoulder, elbow and wrist two each.
-pub(crate) const BRANCHES: usize = 8;
-
-/// The angles of one branch, and how far its pose is from what was asked: m, and the sine of an angle.
-#[derive(Clone, Copy)]
+/// Where the joints of one branch stand, and how far its pose is from what was asked: m, and the length between unit vectors.
 struct Branch {
-    angles: [Pair; 6],
+    joints: Vec<Value>,
     distance: Expr,
     tilt: Expr,
 }
@@ -48,31 +51,34 @@ fn quantity(name: &str, unit: &str, sentence: String, size: Size) -> Quantity {
 /// [nearest table](Robot::nearest_closed_form): it is then only where the arm's own inverse begins, and called so.
 pub fn inverse(robot: &Robot, form: ClosedForm) -> Program {
     let exact = robot.is_as_its_table() && robot.closed_form().is_ok();
-    let mut arm = Layout::new(&robot.nearest(form), form.reversed);
+    let mut arm = Layout::new(&robot.nearest(form), form);
     let branches = match form.family {
-        Family::SphericalWrist(position) => {
-            let positions = position::positions(&mut arm, position);
-            positions.into_iter().flat_map(|at| wrist::wrists(&mut arm, at)).collect()
+        Family::Wrist { position, behind } => {
+            let positions = position::positions(&mut arm, position, behind).into_iter();
+            match behind {
+                3 => positions.flat_map(|at| wrist::wrists(&mut arm, at)).collect(),
+                _ => positions.map(|at| wrist::short(&mut arm, at, behind)).collect(),
+            }
         }
-        Family::ThreeParallel => parallel::branches(&mut arm),
+        Family::ThreeParallel { behind: 2, .. } => parallel::branches(&mut arm),
+        Family::ThreeParallel { before, behind, lift } => {
+            plane::branches(&mut arm, before, behind, lift)
+        }
+        Family::TwoParallel => plane::two(&mut arm),
     };
-    let mut q = Vec::with_capacity(6 * BRANCHES);
+    let (n, count) = (robot.dof(), branches.len());
+    let mut q = Vec::with_capacity(n * count);
     for branch in &branches {
-        q.extend(arm.joint_values(branch.angles));
+        q.extend(arm.joint_values(&branch.joints));
     }
-    let each = Size::Vector(BRANCHES);
+    let each = Size::Vector(count);
     let distances = branches.iter().map(|branch| branch.distance).collect();
     let tilts = branches.iter().map(|branch| branch.tilt).collect();
+    let slides = robot.joints.iter().any(|joint| joint.motion == Motion::Prismatic);
+    let unit = if slides { "rad (prismatic joint: m)" } else { "rad" };
     let results = [
         (
-            quantity(
-                "q",
-                "rad",
-                "Joint values, a column for each branch: shoulder, elbow and wrist are the bits of its number, from the \
-                 highest"
-                    .to_owned(),
-                Size::Matrix { rows: 6, columns: BRANCHES },
-            ),
+            quantity("q", unit, bits(form), Size::Matrix { rows: n, columns: count }),
             q,
         ),
         (
@@ -89,9 +95,7 @@ pub fn inverse(robot: &Robot, form: ClosedForm) -> Program {
             quantity(
                 "tilt",
                 "1",
-                "How far the last axis is from the target's, as the length between unit vectors: zero but for rounding \
-                 where the branch reaches it"
-                    .to_owned(),
+                tilt(form),
                 each,
             ),
             tilts,
@@ -110,14 +114,15 @@ pub fn inverse(robot: &Robot, form: ClosedForm) -> Program {
         own: Some(Own {
             name: if exact { INVERSE_KINEMATICS } else { CLOSED_FORM }.to_owned(),
             sentence: format!(
-                "Every branch of the inverse kinematics{}: {}. Where the target leaves a joint free, it stays at `q`; where \
-                 a branch does not reach the target, it is stretched or folded towards it",
+                "Every branch of the inverse kinematics{}: {}. {}Where the target leaves a joint free, it stays at `q`; \
+                 where a branch does not reach the target, it is stretched or folded towards it",
                 if exact {
                     ""
                 } else {
                     ", as joint values by the nearest table that has a closed form"
                 },
-                form.sentence()
+                form.sentence(),
+                given(form)
             ),
             inputs: vec![OwnInput {
                 name: "target".to_owned(),
@@ -127,5 +132,41 @@ pub fn inverse(robot: &Robot, form: ClosedForm) -> Program {
             }],
             finite: true,
         }),
+    }
+}
+
+/// What the numbers of the branches mean.
+fn bits(form: ClosedForm) -> String {
+    let start = "Joint values, a column for each branch";
+    match form.bits()[..] {
+        [] => "Joint values, of the one branch".to_owned(),
+        [one] => format!("{start}: its number is that of the {one}"),
+        [first, second] => {
+            format!("{start}: {first} and {second} are the bits of its number, from the highest")
+        }
+        _ => format!(
+            "{start}: shoulder, elbow and wrist are the bits of its number, from the highest"
+        ),
+    }
+}
+
+/// What the tilt of a branch is.
+fn tilt(form: ClosedForm) -> String {
+    let what = match form.is_of_six() {
+        true => "How far the last axis is from the target's, as the length between unit vectors",
+        false => {
+            "How far the tool's axes are turned from the target's, twice the sine of half the angle"
+        }
+    };
+    format!("{what}: zero but for rounding where the branch reaches it")
+}
+
+/// What of `q` every branch keeps.
+fn given(form: ClosedForm) -> String {
+    match form.given {
+        Some(joint) => {
+            format!("Joint {} has the value that it has in `q`, in every branch. ", joint + 1)
+        }
+        None => String::new(),
     }
 }

@@ -4,8 +4,10 @@
 //! of the parallel axes stands in the target θ_6. What is left is a triangle in a plane.
 
 use super::Branch;
-use super::layout::{Layout, about_x_back, about_z_back};
-use super::subproblem::{Free, Pair, angle_between, square, turned, turned_back, two_angles};
+use super::displacement::{about_x_back, about_z_back};
+use super::layout::{Layout, Value};
+use super::plane::{Trio, triangle};
+use super::subproblem::{Free, square, two_angles};
 use super::wrist::{Turned, two_turns};
 use crate::expr::{Expr, Vec3};
 
@@ -47,70 +49,37 @@ pub(super) fn branches(arm: &mut Layout) -> Vec<Branch> {
         let wrists = two_turns(arm, mirrored, [arm.alpha[4], arm.alpha[3]], 5);
         let mut elbows: [Vec<Branch>; 2] = Default::default();
         for Turned { fifth, beside: sixth, tilt } in wrists {
-            for (elbow, (angles, in_plane)) in
-                triangle(arm, axes, at, [fifth, sixth]).into_iter().enumerate()
-            {
+            // Rz(−θ_6) Rx(−α_5) Rz(−θ_5) x, and the same of axis 5.
+            let (g, far, [c, s]) = (&mut arm.g, arm.alpha[4], fifth);
+            let mut seen = |v: Vec3| -> [Expr; 2] {
+                let v = about_x_back(g, far, v);
+                let v = about_z_back(g, sixth, v);
+                [0, 1].map(|k| {
+                    let row: Vec3 = core::array::from_fn(|column| axes[column][k]);
+                    g.dot3(row, v)
+                })
+            };
+            let normal = seen([c, -s, Expr::ZERO]);
+            let axis = seen([Expr::ZERO, Expr::ZERO, Expr::ONE]);
+            // Where the third link ends.
+            let end = core::array::from_fn(|k| {
+                let (link, offset) = (g.mul(arm.a[3], normal[k]), g.mul(arm.d[4], axis[k]));
+                let rest = g.sub(at[k], link);
+                g.sub(rest, offset)
+            });
+            let trio = Trio { first: 1, normal, end };
+            for (elbow, (angles, in_plane)) in triangle(arm, trio).into_iter().enumerate() {
                 let g = &mut arm.g;
                 let (a, b) = (square(g, in_plane), g.mul(off, off));
                 let sum = g.add(a, b);
                 let distance = g.sqrt(sum);
                 let [second, third, fourth] = angles;
                 let angles = [first, second, third, fourth, fifth, sixth];
-                elbows[elbow].push(Branch { angles, distance, tilt });
+                let joints = angles.map(Value::Turn).to_vec();
+                elbows[elbow].push(Branch { joints, distance, tilt });
             }
         }
         out.extend(elbows.into_iter().flatten());
     }
     out
-}
-
-/// θ_2, θ_3, θ_4 for both elbows, and what of the place in the plane is missed.
-fn triangle(
-    arm: &mut Layout,
-    axes: [Vec3; 3],
-    at: Vec3,
-    [fifth, sixth]: [Pair; 2],
-) -> [([Pair; 3], Pair); 2] {
-    let [second_side, third_side] = [arm.alpha[1][0], arm.alpha[2][0]];
-    let far = arm.alpha[4];
-    let (near_second, tiny) = (arm.near[1], arm.tiny);
-    let (g, a, d) = (&mut arm.g, arm.a, arm.d[4]);
-    // Rz(−θ_6) Rx(−α_5) Rz(−θ_5) x, and the same of axis 5.
-    let [c, s] = fifth;
-    let normal = about_x_back(g, far, [c, -s, Expr::ZERO]);
-    let normal = about_z_back(g, sixth, normal);
-    let axis = about_x_back(g, far, [Expr::ZERO, Expr::ZERO, Expr::ONE]);
-    let axis = about_z_back(g, sixth, axis);
-    let mut in_plane = |v: Vec3| -> Pair {
-        [0, 1].map(|k| {
-            let row: Vec3 = core::array::from_fn(|column| axes[column][k]);
-            g.dot3(row, v)
-        })
-    };
-    let (normal, axis) = (in_plane(normal), in_plane(axis));
-    // Where the third link ends.
-    let end: Pair = core::array::from_fn(|k| {
-        let (link, offset) = (g.mul(a[3], normal[k]), g.mul(d, axis[k]));
-        let rest = g.sub(at[k], link);
-        g.sub(rest, offset)
-    });
-    let (reach, own) = (square(g, end), square(g, [a[1], a[2]]));
-    let right = g.sub(reach, own);
-    let product = g.mul(a[1], a[2]);
-    let twice = g.add(product, product);
-    two_angles(g, [twice, Expr::ZERO], right, None).map(|third| {
-        let [x, y] = third.map(|component| g.mul(a[2], component));
-        let from = [g.add(a[1], x), g.mul(second_side, y)];
-        let free = Free { near: near_second, tiny };
-        let second = angle_between(g, from, end, Some(free));
-        // The turn of the fourth row: θ_2 ± θ_3 ± θ_4.
-        let third_turn = [third[0], g.mul(second_side, third[1])];
-        let before = turned(g, second, third_turn);
-        let [cosine, sine] = turned_back(g, before, normal);
-        let side = g.mul(second_side, third_side);
-        let fourth = [cosine, g.mul(side, sine)];
-        let reached = turned(g, second, from);
-        let off = [g.sub(end[0], reached[0]), g.sub(end[1], reached[1])];
-        ([second, third, fourth], off)
-    })
 }

@@ -2,85 +2,84 @@
 //!
 //! With `c` the point behind axis 3 and `r` the point from frame 0 moved by d_1,
 //! `r = Rz(θ_1) (a_1 x + Rx(α_1) g)`, `g = Rz(θ_2) f + d_2 z`, `f = a_2 x + Rx(α_2) (Rz(θ_3) c + d_3 z)`.
-//! Which equation has one unknown angle is for the special pair of axes to say (Pieper 1968).
+//! A special pair of axes makes an equation of one unknown angle (Pieper 1968).
 
-use super::layout::{Layout, about_x, about_x_back, about_z_back};
-use super::subproblem::{Free, Pair, angle_between, square, turned, two_angles};
+use super::displacement::{about_x, about_x_back, about_z_back};
+use super::layout::{Layout, Value};
+use super::pieper;
+use super::point::{Linear, Point};
+use super::sliding;
+use super::subproblem::{Free, Pair, angle_between, square, turned, two_angles, two_angles_within};
 use crate::expr::{Expr, Graph, Vec3};
 use crate::number::Number;
 use crate::robot::Position;
 
-/// Three angles, and how far the wrist's point is from where it is to be, m.
+/// Where the first three joints stand, and how far the wrist's point is from where it is to be, m.
 #[derive(Clone, Copy)]
 pub(super) struct At {
-    pub angles: [Pair; 3],
+    pub joints: [Value; 3],
     pub distance: Expr,
 }
 
-/// What does not depend on the angles.
-struct Point {
-    /// Where the wrist's point is to be.
-    r: Vec3,
-    /// The point in the frame that joint 3 turns; its third component less what d_3 moves.
-    c: Pair,
-    /// Component of the point along axis 3, d_3 included.
-    uz: Expr,
-}
-
 /// Shoulder and elbow as the bits of the number, from the higher.
-pub(super) fn positions(arm: &mut Layout, position: Position) -> [At; 4] {
-    let wrist = arm.before_last();
-    let g = &mut arm.g;
-    let r = [wrist[0], wrist[1], g.sub(wrist[2], arm.d[0])];
-    let [cosine, sine] = arm.alpha[2];
-    let (y, z) = (g.mul(-sine, arm.d[3]), g.mul(cosine, arm.d[3]));
-    let point = Point { r, c: [arm.a[2], y], uz: g.add(z, arm.d[2]) };
+pub(super) fn positions(arm: &mut Layout, position: Position, behind: usize) -> Vec<At> {
+    let point = Point::new(arm, behind);
     let triples = match position {
         Position::SecondParallelThird => second_parallel_third(arm, &point),
         Position::FirstParallelSecond => first_parallel_second(arm, &point),
         Position::FirstMeetsSecond => first_meets_second(arm, &point),
         Position::SecondMeetsThird => second_meets_third(arm, &point),
+        Position::General => pieper::general(arm, &point),
+        Position::Sliding(sliding) => {
+            let each = sliding::joints(arm, &point, sliding).into_iter();
+            return each.map(|joints| at(arm, &point, joints)).collect();
+        }
     };
-    triples.map(|angles| At { angles, distance: distance(arm, &point, angles) })
+    let each = triples.into_iter();
+    each.map(|angles| At {
+        joints: angles.map(Value::Turn),
+        distance: distance(arm, &point, angles),
+    })
+    .collect()
 }
 
-/// `a cos θ_3 + b sin θ_3 + constant`.
-struct Linear {
-    by: Pair,
-    constant: Expr,
+/// How far the wrist's point is from where it is to be, of joints that may slide.
+fn at(arm: &mut Layout, point: &Point, joints: [Value; 3]) -> At {
+    let mut left = point.wrist;
+    for (k, value) in joints.into_iter().enumerate() {
+        let (turn, along) = (arm.turn(k, value), arm.along(k, value));
+        left[2] = arm.g.sub(left[2], along);
+        left = about_z_back(&mut arm.g, turn, left);
+        if k < 2 {
+            left[0] = arm.g.sub(left[0], arm.a[k]);
+            left = about_x_back(&mut arm.g, arm.alpha[k], left);
+        }
+    }
+    let [x, y] = point.c;
+    let off = arm.g.add3(left, [-x, -y, -point.cz]);
+    let square = arm.g.dot3(off, off);
+    At { joints, distance: arm.g.sqrt(square) }
 }
 
-impl Point {
-    /// `f` at an angle of joint 3.
-    fn f(&self, arm: &mut Layout, third: Pair) -> Vec3 {
-        let g = &mut arm.g;
-        let [x, y] = turned(g, third, self.c);
-        let [x, y, z] = about_x(g, arm.alpha[1], [x, y, self.uz]);
-        [g.add(arm.a[1], x), y, z]
-    }
-
-    /// Its third component, which no other angle changes.
-    fn fz(&self, arm: &mut Layout) -> Linear {
-        let (g, [cosine, sine], [x, y]) = (&mut arm.g, arm.alpha[1], self.c);
-        Linear { by: [g.mul(sine, y), g.mul(sine, x)], constant: g.mul(cosine, self.uz) }
-    }
-
-    /// Its square.
-    fn square(&self, arm: &mut Layout) -> Linear {
-        let g = &mut arm.g;
-        let twice = g.add(arm.a[1], arm.a[1]);
-        let by = [g.mul(twice, self.c[0]), -g.mul(twice, self.c[1])];
-        let (in_plane, own) = (square(g, self.c), square(g, [self.uz, arm.a[1]]));
-        Linear { by, constant: g.add(in_plane, own) }
-    }
-}
-
-fn solved(g: &mut Graph, linear: &Linear, value: Expr) -> [Pair; 2] {
+/// Both angles of joint 3 where it has a value.
+pub(super) fn solved(g: &mut Graph, linear: &Linear, value: Expr) -> [Pair; 2] {
     let right = g.sub(value, linear.constant);
     two_angles(g, linear.by, right, None)
 }
 
-fn free(arm: &Layout, joint: usize) -> Option<Free> {
+/// The same of an elbow that, stretched, leaves a joint free: there it is stretched where it is so but for rounding.
+fn stretched(g: &mut Graph, linear: &Linear, value: Expr) -> [Pair; 2] {
+    let right = g.sub(value, linear.constant);
+    two_angles_within(g, linear.by, right, Number::rounded(STRETCHED))
+}
+
+/// The part of `a² + b²` that `a² + b² − c²` counts as none below: 256 units of rounding of a double, since the pose and the
+/// square of the distance bring their own errors (16 units are too few for stretched postures of an iiwa). The elbow is then
+/// wrong by 2.4e-7 rad at most, and the pose by 3e-14 of the arm's size.
+pub(super) const STRETCHED: f64 = 256.0 * f64::EPSILON;
+
+/// A joint of which the point may leave the angle free.
+pub(super) fn free(arm: &Layout, joint: usize) -> Option<Free> {
     Some(Free { near: arm.near[joint], tiny: arm.tiny })
 }
 
@@ -137,49 +136,75 @@ fn first_meets_second(arm: &mut Layout, point: &Point) -> [[Pair; 3]; 4] {
     let (across, axial) = (square(g, [rx, ry]), g.mul(rz, rz));
     let reach = g.add(across, axial);
     let mut out = [[[Expr::ZERO; 2]; 3]; 4];
-    for (elbow, third) in solved(&mut arm.g, &linear, reach).into_iter().enumerate() {
-        let [fx, fy, fz] = point.f(arm, third);
-        let (free_first, free_second) = (free(arm, 0), free(arm, 1));
-        let gz = arm.g.add(fz, arm.d[1]);
-        let gy = across_second(arm, rz, gz);
-        let g = &mut arm.g;
-        for (shoulder, second) in two_angles(g, [fy, fx], gy, free_second).into_iter().enumerate() {
-            let [gx, gy] = turned(g, second, [fx, fy]);
-            let [_, y, _] = about_x(g, arm.alpha[0], [gx, gy, gz]);
-            let first = angle_between(g, [gx, y], [rx, ry], free_first);
+    let aligned = arm.a[1].is_zero() && arm.alpha[1][0].is_zero() && point.uz.is_zero();
+    let thirds = match aligned {
+        true => stretched(&mut arm.g, &linear, reach),
+        false => solved(&mut arm.g, &linear, reach),
+    };
+    for (elbow, third) in thirds.into_iter().enumerate() {
+        let f = point.f(arm, third);
+        for (shoulder, [first, second]) in about_meeting(arm, point.r, f).into_iter().enumerate() {
             out[2 * shoulder + elbow] = [first, second, third];
         }
     }
     out
 }
 
+/// θ_1 and θ_2 about axes that meet, for both shoulders: `f` is what joint 2 turns.
+pub(super) fn about_meeting(
+    arm: &mut Layout,
+    [rx, ry, rz]: Vec3,
+    [fx, fy, fz]: Vec3,
+) -> [[Pair; 2]; 2] {
+    let (free_first, free_second) = (free(arm, 0), free(arm, 1));
+    let gz = arm.g.add(fz, arm.d[1]);
+    let gy = across_second(arm, rz, gz);
+    let g = &mut arm.g;
+    two_angles(g, [fy, fx], gy, free_second).map(|second| {
+        let [gx, gy] = turned(g, second, [fx, fy]);
+        let [_, y, _] = about_x(g, arm.alpha[0], [gx, gy, gz]);
+        let first = angle_between(g, [gx, y], [rx, ry], free_first);
+        [first, second]
+    })
+}
+
 /// `r` along axis 1 depends on θ_3 alone, then its distance from the axis on θ_2.
 fn first_parallel_second(arm: &mut Layout, point: &Point) -> [[Pair; 3]; 4] {
-    let [rx, ry, rz] = point.r;
+    let rz = point.r[2];
     let along = point.fz(arm);
     let side = arm.alpha[0][0];
     let height = arm.g.mul(side, rz);
     let height = arm.g.sub(height, arm.d[1]);
     let mut out = [[[Expr::ZERO; 2]; 3]; 4];
     for (elbow, third) in solved(&mut arm.g, &along, height).into_iter().enumerate() {
-        let [fx, fy, _] = point.f(arm, third);
-        let (free_first, free_second) = (free(arm, 0), free(arm, 1));
-        let (g, a) = (&mut arm.g, arm.a[0]);
-        let (across, own, inner) = (square(g, [rx, ry]), g.mul(a, a), square(g, [fx, fy]));
-        let rest = g.sub(across, own);
-        let rest = g.sub(rest, inner);
-        let twice = g.add(a, a);
-        let inverse = g.recip(twice);
-        let gx = g.mul(rest, inverse);
-        for (shoulder, second) in two_angles(g, [fx, -fy], gx, free_second).into_iter().enumerate()
-        {
-            let [gx, gy] = turned(g, second, [fx, fy]);
-            let (x, y) = (g.add(a, gx), g.mul(side, gy));
-            let first = angle_between(g, [x, y], [rx, ry], free_first);
+        let f = point.f(arm, third);
+        for (shoulder, [first, second]) in about_parallel(arm, point.r, f).into_iter().enumerate() {
             out[2 * shoulder + elbow] = [first, second, third];
         }
     }
     out
+}
+
+/// θ_1 and θ_2 about parallel axes, two of them: `f` is what joint 2 turns.
+pub(super) fn about_parallel(
+    arm: &mut Layout,
+    [rx, ry, _]: Vec3,
+    [fx, fy, _]: Vec3,
+) -> [[Pair; 2]; 2] {
+    let (free_first, free_second) = (free(arm, 0), free(arm, 1));
+    let (g, a, side) = (&mut arm.g, arm.a[0], arm.alpha[0][0]);
+    let (across, own, inner) = (square(g, [rx, ry]), g.mul(a, a), square(g, [fx, fy]));
+    let rest = g.sub(across, own);
+    let rest = g.sub(rest, inner);
+    let twice = g.add(a, a);
+    let inverse = g.recip(twice);
+    let gx = g.mul(rest, inverse);
+    two_angles(g, [fx, -fy], gx, free_second).map(|second| {
+        let [gx, gy] = turned(g, second, [fx, fy]);
+        let (x, y) = (g.add(a, gx), g.mul(side, gy));
+        let first = angle_between(g, [x, y], [rx, ry], free_first);
+        [first, second]
+    })
 }
 
 /// The distance from where 2 and 3 meet depends on θ_1 alone, then `g` along axis 2 on θ_3.

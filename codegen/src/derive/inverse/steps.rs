@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use stiffarm_kernels::{AtRest, Pose, Solutions, Steps, Unstable};
+use stiffarm_kernels::{AtRest, Motion, Pose, Solution, Steps, Unstable, nearest_branch};
 
-use super::{BRANCHES, gives, inverse};
+use super::{gives, inverse};
 use crate::derive::{Given, Program, derive};
 use crate::expr::Symbol;
 use crate::robot::beyond::{Law, Move};
@@ -24,12 +24,15 @@ const MOVED: f64 = 1e-3;
 /// How much warmer the arm is than its table, K: about what a day's work and a hall in summer do.
 const WARMED: f64 = 30.0;
 
-/// An arm whose inverse kinematics is evaluated from its graphs, with every `[[effect]]` that kernels have. It has no
-/// symbols.
+/// An arm of N joints whose inverse kinematics is evaluated from its graphs, with every `[[effect]]` that kernels have. It has
+/// no symbols.
 #[derive(Clone, Debug)]
-pub struct AsItIs {
+pub struct AsItIs<const N: usize> {
     programs: Arc<Programs>,
     given: Given,
+    /// The joint that the closed form is given.
+    held: Option<usize>,
+    motion: [Motion; N],
     links: bool,
     readings: usize,
 }
@@ -43,11 +46,11 @@ struct Programs {
 }
 
 /// The same under a wrench and its weights; `None` is the rigid arm.
-struct Under<'a>(&'a AsItIs, Option<&'a [f64; 6]>);
+struct Under<'a, const N: usize>(&'a AsItIs<N>, Option<&'a [f64; 6]>);
 
-impl AsItIs {
-    /// An arm whose closed form, or that of the nearest table, is `form`.
-    pub fn new(robot: &Robot, form: ClosedForm, given: Given) -> AsItIs {
+impl<const N: usize> AsItIs<N> {
+    /// An arm of N joints whose closed form, or that of the nearest table, is `form`.
+    pub fn new(robot: &Robot, form: ClosedForm, given: Given) -> AsItIs<N> {
         let links = robot.joints.iter().any(|joint| joint.beam.is_some());
         let programs = Programs {
             closed: inverse(robot, form),
@@ -55,21 +58,24 @@ impl AsItIs {
             gives: gives(robot),
             sag: derive(robot, &[DEFLECTION]),
         };
+        let motion = |k: usize| robot.joints.get(k).map_or(Motion::Revolute, |joint| joint.motion);
         AsItIs {
             programs: Arc::new(programs),
             given,
+            held: form.given,
+            motion: core::array::from_fn(motion),
             links: links || !robot.beyond.springs.is_empty(),
             readings: readings(robot),
         }
     }
 
     /// The same of joints that come from other sides, of an arm that is warmer.
-    pub fn with(&self, given: &Given) -> AsItIs {
+    pub fn with(&self, given: &Given) -> AsItIs<N> {
         AsItIs { given: given.clone(), ..self.clone() }
     }
 
     /// Every branch of the closed form, as joint values.
-    pub fn closed_form(&self, pose: &Pose<f64>, near: &[f64; 6]) -> Solutions<f64, 6, BRANCHES> {
+    pub fn closed_form(&self, pose: &Pose<f64>, near: &[f64; N]) -> Vec<Solution<f64, N>> {
         let columns = pose.columns();
         let target = columns.as_flattened();
         let (joints, _) = self.programs.closed.readings.evaluate(near, &self.given);
@@ -80,9 +86,16 @@ impl AsItIs {
         };
         let closed = &self.programs.closed;
         let block = |k: usize| closed.graph.evaluate(&closed.blocks[k].entries, value);
-        let (q, [distance, tilt]) = (block(0), [block(1), block(2)].map(|values| array(&values)));
-        let q = core::array::from_fn(|branch| array(&q[6 * branch..]));
-        Solutions { q, distance, tilt }
+        let (q, missed) = (block(0), block(1).into_iter().zip(block(2)));
+        let each = q.chunks(N).zip(missed).enumerate();
+        each.map(|(branch, (q, (distance, tilt)))| Solution {
+            branch,
+            q: array(q),
+            distance,
+            tilt,
+            motion: self.motion,
+        })
+        .collect()
     }
 
     /// The readings of a branch under a wrench and the weights, or of the rigid arm, from its closed form's joint values, and
@@ -92,10 +105,10 @@ impl AsItIs {
     /// [`Unstable`] where the arm does not bear its load.
     pub fn follow(
         &self,
-        joints: [f64; 6],
+        joints: [f64; N],
         pose: &Pose<f64>,
         (wrench, most): (Option<&[f64; 6]>, usize),
-    ) -> Result<([f64; 6], [f64; 2]), Unstable> {
+    ) -> Result<([f64; N], [f64; 2]), Unstable> {
         let mut joints = joints;
         let arm = Under(self, wrench);
         let mut found = arm.follow(joints, pose, (0, self.readings))?;
@@ -109,20 +122,26 @@ impl AsItIs {
         Ok(found)
     }
 
-    /// Every branch's readings, from those near some readings.
+    /// Every branch's readings, from those near some readings, by so many steps at most. A branch in which the arm does not
+    /// bear its load misses the pose by an infinite distance.
     pub fn solutions(
         &self,
         pose: &Pose<f64>,
-        near: &[f64; 6],
-        wrench: Option<&[f64; 6]>,
-    ) -> Solutions<f64, 6, BRANCHES> {
-        self.closed_form(pose, near).each(|joints| self.follow(joints, pose, (wrench, Steps::MOST)))
+        near: &[f64; N],
+        (wrench, most): (Option<&[f64; 6]>, usize),
+    ) -> Vec<Solution<f64, N>> {
+        let each = self.closed_form(pose, near).into_iter();
+        each.map(|begin| match self.follow(begin.q, pose, (wrench, most)) {
+            Ok((q, [distance, tilt])) => Solution { q, distance, tilt, ..begin },
+            Err(Unstable) => Solution { distance: f64::INFINITY, tilt: f64::INFINITY, ..begin },
+        })
+        .collect()
     }
 
     fn blocks(
         &self,
         program: &Program,
-        joints: &[f64; 6],
+        joints: &[f64; N],
         wrench: &[f64; 6],
     ) -> Result<Vec<Vec<f64>>, Unstable> {
         let (_, growth) = program.readings.evaluate(joints, &self.given);
@@ -131,12 +150,15 @@ impl AsItIs {
     }
 }
 
-impl AtRest<f64, 6> for Under<'_> {
-    fn stands(&self, joints: &[f64; 6]) -> Result<(Pose<f64>, [[f64; 6]; 6]), Unstable> {
+impl<const N: usize> AtRest<f64, N> for Under<'_, N> {
+    fn stands(&self, joints: &[f64; N]) -> Result<(Pose<f64>, [[f64; 6]; N]), Unstable> {
         let blocks = self.0.blocks(&self.0.programs.rigid, joints, &[0.0; 6])?;
         let axis = |k: usize| array(&blocks[0][3 * k..]);
         let pose = Pose { rotation: [axis(0), axis(1), axis(2)], position: axis(3) };
-        let jacobian = core::array::from_fn(|joint| array(&blocks[1][6 * joint..]));
+        let jacobian = core::array::from_fn(|joint| match self.0.held == Some(joint) {
+            true => [0.0; 6],
+            false => array(&blocks[1][6 * joint..]),
+        });
         Ok(match self.1.filter(|_| self.0.links) {
             Some(wrench) => {
                 let gives = self.0.blocks(&self.0.programs.gives, joints, wrench)?;
@@ -146,13 +168,13 @@ impl AtRest<f64, 6> for Under<'_> {
         })
     }
 
-    fn gives(&self, joints: &[f64; 6]) -> Result<[f64; 6], Unstable> {
-        let Some(wrench) = self.1 else { return Ok([0.0; 6]) };
+    fn gives(&self, joints: &[f64; N]) -> Result<[f64; N], Unstable> {
+        let Some(wrench) = self.1 else { return Ok([0.0; N]) };
         self.0.blocks(&self.0.programs.sag, joints, wrench)?;
         Ok(array(&self.0.blocks(&self.0.programs.gives, joints, wrench)?[0]))
     }
 
-    fn joints(&self, readings: &[f64; 6]) -> [f64; 6] {
+    fn joints(&self, readings: &[f64; N]) -> [f64; N] {
         array(&self.0.programs.rigid.readings.evaluate(readings, &self.0.given).0)
     }
 }
@@ -164,6 +186,17 @@ fn array<const N: usize>(values: &[f64]) -> [f64; N] {
 
 /// The steps behind a closed form of an arm.
 pub fn steps(robot: &Robot, form: ClosedForm) -> Steps {
+    match robot.dof() {
+        2 => steps_of::<2>(robot, form),
+        3 => steps_of::<3>(robot, form),
+        4 => steps_of::<4>(robot, form),
+        5 => steps_of::<5>(robot, form),
+        7 => steps_of::<7>(robot, form),
+        _ => steps_of::<6>(robot, form),
+    }
+}
+
+fn steps_of<const N: usize>(robot: &Robot, form: ClosedForm) -> Steps {
     let readings = readings(robot);
     if !robot.symbols().is_empty() {
         // Its closed form is its own, and what its links give is not known.
@@ -172,16 +205,16 @@ pub fn steps(robot: &Robot, form: ClosedForm) -> Steps {
         return Steps { unloaded: 0, loaded, readings };
     }
     let given = Given { warming: WARMED, ..Given::default() };
-    let arm = AsItIs::new(robot, form, given);
+    let arm = AsItIs::<N>::new(robot, form, given);
     let unloaded = match robot.has_closed_form() {
         true => 0,
-        false => needed(|q, _| taken(&arm, q, None)),
+        false => needed(robot, |q, _| taken(&arm, q, None)),
     };
     if !robot.has_set_points() || !arm.links {
         return Steps { unloaded, loaded: unloaded, readings };
     }
     let size = robot.size();
-    let loaded = needed(|q, [x, y, z]| {
+    let loaded = needed(robot, |q, [x, y, z]| {
         let newton = [x, y, z, 0.0, 0.0, 0.0];
         let [own, with] = [[0.0; 6], newton].map(|w| arm.blocks(&arm.programs.sag, q, &w));
         let (own, with) = (own?, with?);
@@ -221,18 +254,31 @@ fn readings(robot: &Robot) -> usize {
 }
 
 /// What so many postures take at most, but for a few; one in which the arm does not bear the load takes none.
-fn needed(steps: impl Fn(&[f64; 6], [f64; 3]) -> Result<usize, Unstable>) -> usize {
+fn needed<const N: usize>(
+    robot: &Robot,
+    steps: impl Fn(&[f64; N], [f64; 3]) -> Result<usize, Unstable>,
+) -> usize {
     let [all, most] = POSTURES;
-    let roots = [2.0, 3.0, 5.0, 7.0, 11.0, 13.0, 17.0, 19.0, 23.0].map(libm::sqrt);
+    let roots = [2.0, 3.0, 5.0, 7.0, 11.0, 13.0, 29.0].map(libm::sqrt);
+    let of_load = [17.0, 19.0, 23.0].map(libm::sqrt);
     let mut counts: Vec<usize> = (1..=all)
         .map(|k| {
             // Multiples of irrational numbers fill the space evenly.
-            let [a, b, c, d, e, f, x, y, z] = roots.map(|root| {
+            let part = |root: f64| {
                 let turns = k as f64 * root;
                 2.0 * (turns - libm::floor(turns)) - 1.0
+            };
+            let q = core::array::from_fn(|joint| {
+                let part = part(roots[joint % roots.len()]);
+                match robot.joints.get(joint).map(|joint| (joint.motion, joint.limits)) {
+                    Some((Motion::Prismatic, Some([low, high]))) => {
+                        (low + high) / 2.0 + (high - low) / 2.0 * part
+                    }
+                    Some((Motion::Prismatic, None)) => part,
+                    _ => core::f64::consts::PI * part,
+                }
             });
-            let q = [a, b, c, d, e, f].map(|part| core::f64::consts::PI * part);
-            steps(&q, [x, y, z]).unwrap_or(0)
+            steps(&q, of_load.map(part)).unwrap_or(0)
         })
         .collect();
     counts.sort_unstable();
@@ -240,11 +286,14 @@ fn needed(steps: impl Fn(&[f64; 6], [f64; 3]) -> Result<usize, Unstable>) -> usi
 }
 
 /// How many steps lead back to where the arm stands at joint values.
-fn taken(arm: &AsItIs, joints: &[f64; 6], wrench: Option<&[f64; 6]>) -> Result<usize, Unstable> {
+fn taken<const N: usize>(
+    arm: &AsItIs<N>,
+    joints: &[f64; N],
+    wrench: Option<&[f64; 6]>,
+) -> Result<usize, Unstable> {
     let under = Under(arm, wrench);
     let (pose, _) = under.stands(joints)?;
-    let any = (f64::MAX, f64::MAX);
-    let begin = arm.closed_form(&pose, joints).nearest(joints, &[None; 6], any);
+    let begin = nearest_branch(arm.closed_form(&pose, joints), joints, &[None; N]);
     let Some(mut at) = begin.map(|begin| begin.q) else { return Ok(Steps::MOST) };
     for count in 0..Steps::MOST {
         let (_, missed) = under.follow(at, &pose, (0, arm.readings))?;

@@ -1,12 +1,15 @@
-//! The last three angles of an arm whose last three axes meet: those that turn the tool as it is to be.
+//! The angles behind the first three joints: those that turn the tool as it is to be.
 //!
 //! With `M` the target's axes in frame 3, `M = Rz(θ_4) Rx(α_4) Rz(θ_5) Rx(α_5) Rz(θ_6)`: its last entry gives θ_5, its last
-//! column θ_4, and what is then left θ_6.
+//! column θ_4, and what is then left θ_6. Of two angles the last axis gives the first, of one the nearest turn.
 
 use super::Branch;
-use super::layout::{Layout, NOTHING, about_x_back, about_z_back};
+use super::displacement::{about_x_back, about_z_back};
+use super::layout::{Layout, NOTHING, Value};
 use super::position::At;
-use super::subproblem::{Free, Pair, angle_between, square, turned, turned_back, unit};
+use super::subproblem::{
+    Free, Pair, angle_between, nearest_turn, square, turned, turned_back, unit,
+};
 use crate::expr::{Expr, Vec3};
 use crate::number::Number;
 
@@ -69,48 +72,88 @@ pub(super) fn two_turns(
     })
 }
 
-/// Both branches of the wrist at an angle of the first three.
-pub(super) fn wrists(arm: &mut Layout, At { angles, distance }: At) -> [Branch; 2] {
+/// Both branches of the wrist where the first three joints stand.
+pub(super) fn wrists(arm: &mut Layout, At { joints, distance }: At) -> [Branch; 2] {
     let [x, _, z] = arm.target.axes;
-    let (first, last) = (behind_third(arm, angles, x), behind_third(arm, angles, z));
-    let twists = [arm.alpha[3], arm.alpha[4]];
-    let [near, far] = twists;
-    two_turns(arm, last, twists, 3).map(|Turned { fifth, beside: fourth, tilt }| {
+    let (first, last) = (behind_third(arm, joints, x), behind_third(arm, joints, z));
+    let [near, far] = [arm.alpha[3], arm.alpha[4]];
+    two_turns(arm, last, [near, far], 3).map(|Turned { fifth, beside: fourth, tilt }| {
         let g = &mut arm.g;
         // Rx(−α_5) Rz(−θ_5) Rx(−α_4) Rz(−θ_4) M is a turn about z.
         let mut rest = about_z_back(g, fourth, first);
         rest = about_x_back(g, near, rest);
         rest = about_z_back(g, fifth, rest);
         rest = about_x_back(g, far, rest);
-        let [first, second, third] = angles;
-        let angles = [first, second, third, fourth, fifth, [rest[0], rest[1]]];
-        Branch { angles, distance, tilt }
+        let mut joints = joints.to_vec();
+        joints.extend([fourth, fifth, [rest[0], rest[1]]].map(Value::Turn));
+        Branch { joints, distance, tilt }
     })
 }
 
+/// The branch of an arm with fewer than three joints behind the first three.
+pub(super) fn short(arm: &mut Layout, At { joints, .. }: At, behind: usize) -> Branch {
+    let mut axes = arm.target.axes.map(|axis| behind_third(arm, joints, axis));
+    let mut joints = joints.to_vec();
+    if behind == 2 {
+        let free = free(arm, 3);
+        let g = &mut arm.g;
+        let [cosine, sine] = arm.alpha[3];
+        let fourth = angle_between(g, [Expr::ZERO, -sine], [axes[2][0], axes[2][1]], Some(free));
+        axes = axes.map(|axis| {
+            let axis = about_z_back(g, fourth, axis);
+            about_x_back(g, [cosine, sine], axis)
+        });
+        joints.push(Value::Turn(fourth));
+    }
+    if behind > 0 {
+        joints.push(Value::Turn(last_turn(arm, axes)));
+    }
+    let (distance, tilt) = arm.missed(&joints);
+    Branch { joints, distance, tilt }
+}
+
+/// The angle of the last joint behind which the axes are nearest to these.
+pub(super) fn last_turn(arm: &mut Layout, [x, y, _]: [Vec3; 3]) -> Pair {
+    let free = free(arm, arm.near.len() - 1);
+    nearest_turn(&mut arm.g, [x[0], x[1]], [y[0], y[1]], free)
+}
+
+/// A joint of which an axis may leave the angle free.
+pub(super) fn free(arm: &mut Layout, joint: usize) -> Free {
+    let tiny = arm.g.number(Number::rounded(NOTHING * NOTHING));
+    Free { near: arm.near[joint], tiny }
+}
+
 /// A vector of the base in frame 3. Parallel axes turn as one.
-fn behind_third(arm: &mut Layout, angles: [Pair; 3], v: Vec3) -> Vec3 {
-    let g = &mut arm.g;
+fn behind_third(arm: &mut Layout, joints: [Value; 3], v: Vec3) -> Vec3 {
     let mut v = v;
     let mut pending: Option<Pair> = None;
-    for (angle, alpha) in angles.into_iter().zip(arm.alpha) {
+    for (k, value) in joints.into_iter().enumerate() {
+        let angle = arm.turn(k, value);
+        // There is no link behind the third of three joints.
+        let link = arm.alpha.get(k).copied();
+        let g = &mut arm.g;
         let sum = match pending {
             None => angle,
             Some(before) => turned(g, before, angle),
         };
-        if alpha[1].is_zero() {
+        match link {
+            Some(alpha) if !alpha[1].is_zero() => {
+                v = about_z_back(g, sum, v);
+                v = about_x_back(g, alpha, v);
+                pending = None;
+            }
             // Rz(θ) Rx(0 or π) = Rx(0 or π) Rz(±θ).
-            v = about_x_back(g, alpha, v);
-            pending = Some([sum[0], g.mul(alpha[0], sum[1])]);
-        } else {
-            v = about_z_back(g, sum, v);
-            v = about_x_back(g, alpha, v);
-            pending = None;
+            Some(alpha) => {
+                v = about_x_back(g, alpha, v);
+                pending = Some([sum[0], g.mul(alpha[0], sum[1])]);
+            }
+            None => pending = Some(sum),
         }
     }
     match pending {
         Some(sum) => {
-            let [x, y] = turned_back(g, sum, [v[0], v[1]]);
+            let [x, y] = turned_back(&mut arm.g, sum, [v[0], v[1]]);
             [x, y, v[2]]
         }
         None => v,

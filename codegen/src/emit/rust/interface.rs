@@ -6,10 +6,10 @@ use super::function::parameter;
 use super::posture::INLINE;
 use super::shapes::{flat, ty};
 use super::table::numeric;
-use crate::derive::{BRANCHES, Held, steps};
+use crate::derive::{Held, steps};
 use crate::emit::lines::Lines;
 use crate::ir::{Extra, Group, Module};
-use crate::robot::{CLOSED_FORM, ClosedForm, DEFLECTION, GIVES, INVERSE_KINEMATICS};
+use crate::robot::{CLOSED_FORM, ClosedForm, DEFLECTION, GIVES, INVERSE_KINEMATICS, Motion, Robot};
 
 /// The struct `Robot` and its traits.
 pub(super) fn interface(
@@ -193,17 +193,21 @@ fn has(out: &mut Lines, target: &str, (output, n): (Output, usize), symbolic: bo
 fn inverse(out: &mut Lines, target: &str, module: &Module, form: ClosedForm) {
     let constants = if module.is_symbolic() { "&self.constants, " } else { "" };
     let given = own(&module.readings.extras);
+    let count = form.branches();
     joint_values(out, target, module);
     out.blank();
-    out.within(&format!("impl<S: Scalar> Inverse<N, {BRANCHES}, S> for {target} {{"), "}", |out| {
+    out.within(&format!("impl<S: Scalar> Inverse<N, {count}, S> for {target} {{"), "}", |out| {
         let Steps { unloaded, loaded, readings } = steps(module.robot, form);
         out.code(&format!(
             "const STEPS: Steps = Steps {{ unloaded: {unloaded}, loaded: {loaded}, \
              readings: {readings} }};"
         ));
+        if let Some(joint) = form.given {
+            out.code(&format!("const GIVEN: Option<usize> = Some({joint});"));
+        }
         let head = |name: &str| {
             format!(
-                "fn {name}(&self, pose: &Pose<S>, near: &[S; N]) -> Solutions<S, N, {BRANCHES}> {{"
+                "fn {name}(&self, pose: &Pose<S>, near: &[S; N]) -> Solutions<S, N, {count}> {{"
             )
         };
         let exact = module.functions().any(|function| function.name() == INVERSE_KINEMATICS);
@@ -221,7 +225,8 @@ fn inverse(out: &mut Lines, target: &str, module: &Module, form: ClosedForm) {
                 "let {name}::{structure} {{ q, distance, tilt }} = \
                  {name}({constants}near{given}, target);"
             ));
-            out.code("Solutions { q, distance, tilt }");
+            let motion = motion(module.robot);
+            out.code(&format!("Solutions {{ q, distance, tilt, motion: {motion} }}"));
         });
         let whole = match exact {
             true => "self.closed_form(pose, near)",
@@ -231,6 +236,20 @@ fn inverse(out: &mut Lines, target: &str, module: &Module, form: ClosedForm) {
     });
     if module.robot.has_set_points() {
         elastic(out, target, (module, constants));
+    }
+}
+
+/// Which joints turn, as an array.
+fn motion(robot: &Robot) -> String {
+    let name = |motion: Motion| match motion {
+        Motion::Revolute => "Motion::Revolute",
+        Motion::Prismatic => "Motion::Prismatic",
+    };
+    let each: Vec<&str> = robot.joints.iter().map(|joint| name(joint.motion)).collect();
+    let turns = robot.joints.iter().all(|joint| joint.motion == Motion::Revolute);
+    match turns {
+        true => format!("[{}; N]", name(Motion::Revolute)),
+        false => format!("[{}]", each.join(", ")),
     }
 }
 

@@ -6,7 +6,7 @@ use stiffarm_kernels::Steps;
 
 use super::Module;
 use super::Sines;
-use crate::derive::{BRANCHES, steps};
+use crate::derive::steps;
 use crate::emit::lines::Lines;
 use crate::ir::Extra;
 use crate::robot::{CLOSED_FORM, GIVES};
@@ -23,9 +23,16 @@ struct Text {
     /// The closed form's function.
     closed: &'static str,
     links: bool,
+    /// Whether the function of what gives takes a wrench.
+    loads: bool,
     moves: bool,
     margin: Option<[f64; 2]>,
     steps: Steps,
+    /// Joints.
+    n: usize,
+    branches: usize,
+    /// The joint that is given.
+    held: Option<usize>,
 }
 
 impl Text {
@@ -39,7 +46,8 @@ impl Text {
         let (name, real) = (module.name().to_owned(), module.language.real());
         let upper = name.to_uppercase();
         let find = |called: &str| module.ir.functions().find(|f| f.name() == called);
-        let tool = find(GIVES)?.blocks().last()?;
+        let gives = find(GIVES)?;
+        let tool = gives.blocks().last()?;
         let deflection = find(crate::robot::DEFLECTION.name())?;
         let margin = deflection.solves().find_map(|solve| solve.margin);
         let extras = &module.ir.readings.extras;
@@ -55,9 +63,13 @@ impl Text {
         Some(Text {
             closed: if exact { crate::robot::INVERSE_KINEMATICS } else { CLOSED_FORM },
             links: tool.entries.iter().any(|e| !e.is_zero()),
+            loads: !gives.arguments.is_empty(),
             moves: module.ir.readings.moves,
             margin: margin.map(|margin| margin.map(|most| most.to_f64())),
             steps: steps(module.ir.robot, form),
+            n: module.ir.robot.dof(),
+            branches: form.branches(),
+            held: form.given,
             suffix: module.language.suffix(),
             name,
             upper,
@@ -86,7 +98,7 @@ impl Text {
 /// The declarations of the header.
 pub(super) fn declared(module: &Module, out: &mut Lines) {
     let Some(text) = Text::of(module) else { return };
-    let Text { name, real, steps: Steps { loaded, .. }, .. } = &text;
+    let Text { name, real, steps: Steps { loaded, .. }, branches, .. } = &text;
     let head = text.head();
     out.verbatim(&format!(
         "
@@ -94,8 +106,8 @@ pub(super) fn declared(module: &Module, out: &mut Lines) {
 typedef struct
 {{
     {real} q[{size}];
-    {real} distance[{BRANCHES}];
-    {real} tilt[{BRANCHES}];
+    {real} distance[{branches}];
+    {real} tilt[{branches}];
 }} {name}_set_points_t;
 
 /* The readings at which the loaded arm's tool stands at a pose, at rest under a wrench and its weights, branch by
@@ -106,18 +118,18 @@ typedef struct
  * and moment on the tool, in N and N*m. */
 {head};
 ",
-        size = 6 * BRANCHES,
+        size = text.n * branches,
     ));
 }
 
 /// The functions of the source.
 pub(super) fn written(module: &Module, out: &mut Lines) {
     let Some(text) = Text::of(module) else { return };
-    let Text { name, real, given: [parameters, _], .. } = &text;
+    let Text { name, real, given: [parameters, _], n, .. } = &text;
     out.blank();
     out.comment(&["The posture at joint values, not at readings.".to_owned()]);
     out.code(&format!(
-        "static void posture_at(const {real} q[6]{parameters}, {name}_posture_t *posture)"
+        "static void posture_at(const {real} q[{n}]{parameters}, {name}_posture_t *posture)"
     ));
     out.braces(|out| module.fields(out, &module.ir.posture, false));
     if text.steps.loaded > 0 {

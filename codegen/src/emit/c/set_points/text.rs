@@ -3,11 +3,12 @@
 use stiffarm_kernels::Steps;
 
 use super::Text;
-use crate::derive::BRANCHES;
 
 /// A step.
 pub(super) fn step(text: &Text) -> String {
     let (real, zero, half, one) = (text.real, text.lit(0.0), text.lit(0.5), text.lit(1.0));
+    let n = text.n;
+    let (entries, square) = (6 * n, n * n);
     // Eight units of rounding.
     let rounding = match text.suffix {
         "" => text.lit(8.0 * f64::EPSILON),
@@ -28,12 +29,12 @@ static {real} dot_6(const {real} a[6], const {real} b[6])
 }}
 
 /* Adds (J'J + damping)^-1 J'e to joint values, e from where the tool stands to the target; 0 where a number is none. */
-static int step(const {real} stands[12], const {real} jacobian[36], const {real} target[12], {real} joints[6])
+static int step(const {real} stands[12], const {real} jacobian[{entries}], const {real} target[12], {real} joints[{n}])
 {{
     {real} error[6] = {{{zero}}};
-    {real} a[36];
-    {real} by[6];
-    {real} inverse[6];
+    {real} a[{square}];
+    {real} by[{n}];
+    {real} inverse[{n}];
     {real} trace = {zero};
     {real} damping;
     int definite = 1;
@@ -51,43 +52,43 @@ static int step(const {real} stands[12], const {real} jacobian[36], const {real}
         error[4] = error[4] + {half} * (from[2] * to[0] - from[0] * to[2]);
         error[5] = error[5] + {half} * (from[0] * to[1] - from[1] * to[0]);
     }}
-    for (row = 0U; row < 6U; row++)
+    for (row = 0U; row < {n}U; row++)
     {{
         for (column = 0U; column <= row; column++)
         {{
-            a[(row * 6U) + column] = dot_6(&jacobian[6U * row], &jacobian[6U * column]);
+            a[(row * {n}U) + column] = dot_6(&jacobian[6U * row], &jacobian[6U * column]);
         }}
-        trace = trace + a[(row * 6U) + row];
+        trace = trace + a[(row * {n}U) + row];
         by[row] = dot_6(&jacobian[6U * row], error);
     }}
     damping = dot_6(error, error) + {rounding} * trace;
-    for (k = 0U; k < 6U; k++)
+    for (k = 0U; k < {n}U; k++)
     {{
-        const {real} pivot = a[(k * 6U) + k] + damping;
+        const {real} pivot = a[(k * {n}U) + k] + damping;
 
         if (!(pivot > {zero}))
         {{
             definite = 0;
         }}
         inverse[k] = {one} / pivot;
-        for (row = k + 1U; row < 6U; row++)
+        for (row = k + 1U; row < {n}U; row++)
         {{
-            const {real} factor = a[(row * 6U) + k] * inverse[k];
+            const {real} factor = a[(row * {n}U) + k] * inverse[k];
 
             for (column = k + 1U; column <= row; column++)
             {{
-                a[(row * 6U) + column] = a[(row * 6U) + column] - factor * a[(column * 6U) + k];
+                a[(row * {n}U) + column] = a[(row * {n}U) + column] - factor * a[(column * {n}U) + k];
             }}
             by[row] = by[row] - factor * by[k];
         }}
     }}
-    for (k = 6U; k > 0U; k--)
+    for (k = {n}U; k > 0U; k--)
     {{
         const unsigned int last = k - 1U;
 
-        for (row = k; row < 6U; row++)
+        for (row = k; row < {n}U; row++)
         {{
-            by[last] = by[last] - a[(row * 6U) + last] * by[row];
+            by[last] = by[last] - a[(row * {n}U) + last] * by[row];
         }}
         by[last] = by[last] * inverse[last];
         joints[last] = joints[last] + by[last];
@@ -177,19 +178,30 @@ static void displace({real} pose[12], const {real} by[6])
 
 /// Where the tool stands, and one branch.
 pub(super) fn at_rest(text: &Text) -> String {
-    let Text { name, upper, real, given: [parameters, given], moves, steps, .. } = text;
+    let Text { name, upper, real, given: [parameters, given], moves, steps, n, .. } = text;
+    let entries = 6 * n;
     let Steps { loaded, readings, .. } = steps;
+    let hold = text.held.map_or_else(String::new, |joint| {
+        let (first, zero) = (6 * joint, text.lit(0.0));
+        format!(
+            "
+        for (k = 0U; k < 6U; k++)
+        {{
+            jacobian[{first}U + k] = {zero};
+        }}"
+        )
+    });
     let stepped = match loaded {
         0 => String::new(),
         _ => format!(
             "
     for (count = 0U; count < {loaded}U; count++)
     {{
-        {real} jacobian[36];
+        {real} jacobian[{entries}];
 
         posture_at(joints{given}, &posture);
         stands_at(&posture, wrench, pose);
-        {name}_given_jacobian(&posture, jacobian);
+        {name}_given_jacobian(&posture, jacobian);{hold}
         if (step(pose, jacobian, target, joints) == 0)
         {{
             definite = 0;
@@ -197,9 +209,10 @@ pub(super) fn at_rest(text: &Text) -> String {
     }}"
         ),
     };
+    let load = if text.loads { ", wrench" } else { "" };
     let gives = match text.links {
         true => format!(
-            "\n    {name}_gives_t gives;\n\n    {name}_given_gives(posture, wrench, &gives);\n    \
+            "\n    {name}_gives_t gives;\n\n    {name}_given_gives(posture{load}, &gives);\n    \
              {name}_given_pose(posture, pose);\n    displace(pose, gives.tool);"
         ),
         false => format!("\n    (void)wrench;\n    {name}_given_pose(posture, pose);"),
@@ -228,7 +241,7 @@ pub(super) fn at_rest(text: &Text) -> String {
             "    for (count = 0U; count < {readings}U; count++)
     {{
         {again}
-        for (k = 0U; k < 6U; k++)
+        for (k = 0U; k < {n}U; k++)
         {{
             q[k] = q[k] + (meant[k] - at[k]);
         }}
@@ -244,15 +257,15 @@ static void stands_at(const {name}_posture_t *posture, const {real} wrench[6], {
 }}
 
 /* The readings of one branch from its joint values, and what they miss the target by. */
-static {name}_status_t follow(const {real} begin[6]{parameters}, const {real} target[12], const {real} wrench[6],
-    {real} q[6], {real} *distance, {real} *tilt)
+static {name}_status_t follow(const {real} begin[{n}]{parameters}, const {real} target[12], const {real} wrench[6],
+    {real} q[{n}], {real} *distance, {real} *tilt)
 {{
     {name}_status_t status = {upper}_OK;
     {name}_posture_t posture = {{0}};
     {name}_gives_t give;
-    {real} joints[6];
-    {real} meant[6];
-    {real} at[6];
+    {real} joints[{n}];
+    {real} meant[{n}];
+    {real} at[{n}];
     {real} pose[12];
     {real} sag[6];
     int definite = 1;
@@ -262,14 +275,14 @@ static {name}_status_t follow(const {real} begin[6]{parameters}, const {real} ta
     (void)count;
     (void)memcpy(joints, begin, sizeof joints);{stepped}
     posture_at(joints{given}, &posture);
-{bears}    {name}_given_gives(&posture, wrench, &give);
-    for (k = 0U; k < 6U; k++)
+{bears}    {name}_given_gives(&posture{load}, &give);
+    for (k = 0U; k < {n}U; k++)
     {{
         meant[k] = joints[k] - give.joints[k];
         q[k] = meant[k];
     }}
 {read}    {again}
-    for (k = 0U; k < 6U; k++)
+    for (k = 0U; k < {n}U; k++)
     {{
         at[k] = at[k] + give.joints[k];
     }}
@@ -285,7 +298,7 @@ static {name}_status_t follow(const {real} begin[6]{parameters}, const {real} ta
 
 /// All branches.
 pub(super) fn whole(text: &Text) -> String {
-    let Text { name, upper, real, given: [_, given], closed, .. } = text;
+    let Text { name, upper, real, given: [_, given], closed, n, branches, .. } = text;
     let most = match text.suffix {
         "" => text.lit(f64::MAX),
         _ => text.lit(f64::from(f32::MAX)),
@@ -300,15 +313,15 @@ pub(super) fn whole(text: &Text) -> String {
     unsigned int branch;
 
     {name}_{closed}(q{given}, target, &begin);
-    for (branch = 0U; branch < {BRANCHES}U; branch++)
+    for (branch = 0U; branch < {branches}U; branch++)
     {{
-        const {real} *const joints = &begin.q[6U * branch];
+        const {real} *const joints = &begin.q[{n}U * branch];
         const {name}_status_t status = follow(joints{given}, target, wrench,
-            &out->q[6U * branch], &out->distance[branch], &out->tilt[branch]);
+            &out->q[{n}U * branch], &out->distance[branch], &out->tilt[branch]);
 
         if (status != {upper}_OK)
         {{
-            (void)memcpy(&out->q[6U * branch], joints, 6U * sizeof joints[0]);
+            (void)memcpy(&out->q[{n}U * branch], joints, {n}U * sizeof joints[0]);
             out->distance[branch] = most + most;
             out->tilt[branch] = most + most;
         }}
