@@ -165,20 +165,18 @@ fn changed<O: Observations>(
         if data.terms(now).each[term].margin > SURE {
             continue;
         }
-        let (margin, fit) = exchanged(data, now, &[term], &costs, variance)?;
-        if fit.is_some() {
-            return Ok(fit);
-        }
-        if let Some(margin) = margin {
-            data.note_margin(now, term, margin);
+        match exchanged(data, now, &[term], &costs, variance)? {
+            Compared::Exchanged(fit) => return Ok(Some(fit)),
+            Compared::Leads(margin) => data.note_margin(now, term, margin),
+            Compared::Alone => {}
         }
     }
     for first in (along..count).filter(|_| end) {
         for second in first + 1..count {
             if data.is_pair(now, [first, second]) {
-                let (_, fit) = exchanged(data, now, &[first, second], &costs, variance)?;
-                if fit.is_some() {
-                    return Ok(fit);
+                let both = exchanged(data, now, &[first, second], &costs, variance)?;
+                if let Compared::Exchanged(fit) = both {
+                    return Ok(Some(fit));
                 }
             }
         }
@@ -186,29 +184,39 @@ fn changed<O: Observations>(
     Ok(None)
 }
 
-/// The model with the best of all others in the place of some terms (ascending), if it has more
-/// evidence than they at these `costs` of all terms; if not, by how much less it has, if there is one.
+/// Some terms against the best of all others in their place.
+enum Compared<F> {
+    /// They have so much more evidence.
+    Leads(f64),
+    /// The model with the other.
+    Exchanged(F),
+    /// No other can be fitted.
+    Alone,
+}
+
+/// Some terms (ascending) against the best of all others in their place, at these `costs` of all terms.
 fn exchanged<O: Observations>(
     data: &O,
     now: &O::Fit,
     without: &[usize],
     costs: &[f64],
     variance: f64,
-) -> Result<(Option<f64>, Option<O::Fit>), O::Error> {
+) -> Result<Compared<O::Fit>, O::Error> {
     if data.stopped() {
-        return Ok((None, None));
+        return Ok(Compared::Alone);
     }
     let screen = data.beside(now, without);
     let own = data.left(now) / variance + without.iter().map(|k| costs[*k]).sum::<f64>();
     let can = data.replacing(now, without);
     let ranked = screen.ranked(data.scale(now));
-    let Some(best) = ranked.iter().find(|one| can(one)) else { return Ok((None, None)) };
+    let Some(best) = ranked.iter().find(|one| can(one)) else { return Ok(Compared::Alone) };
     let margin = (screen.left() - best.score.drop) / variance + best.cost - own;
     if margin + EXCHANGE >= 0.0 {
-        return Ok((Some(margin), None));
+        return Ok(Compared::Leads(margin));
     }
     let below = (own - best.cost) * variance;
-    Ok((None, data.replaced(now, without, Some((best, &screen)), below)?))
+    let fit = data.replaced(now, without, Some((best, &screen)), below)?;
+    Ok(fit.map_or(Compared::Alone, Compared::Exchanged))
 }
 
 /// The term that costs most beyond what it explains beside all the others, if one does.
