@@ -1,4 +1,4 @@
-//! A log as [`Observations`]: a model with the noise that it leaves, and what may stand in place of its terms.
+//! A log as observations: a model with the noise that it leaves, and what may stand in place of its terms.
 //!
 //! Rows are autocorrelated: a log of 30,000 holds a few hundred numbers. Each joint's rows weigh by what is left of it,
 //! and all of them so much less that their squares are as many as those numbers.

@@ -69,7 +69,7 @@ impl Unseen {
         }
     }
 
-    /// [`covariance`] of the values of a fit, by the same blocks.
+    /// Covariance of the values of a fit, by the same blocks.
     pub fn covariance(&self, values: &[f64]) -> DMatrix<f64> {
         covariance(&self.products, values)
     }
