@@ -104,7 +104,8 @@ impl Inverse {
         let branches = self.form.branches();
         let each = [&batch[..], &[branches]].concat();
         let q: Vec<f64> = all.iter().flat_map(|branch| branch.q.iter().copied()).collect();
-        let array = |values: Vec<f64>, shape: Vec<usize>| PyArray1::from_vec(py, values).reshape(shape);
+        let array =
+            |values: Vec<f64>, shape: Vec<usize>| PyArray1::from_vec(py, values).reshape(shape);
         let within = PyArray1::from_vec(py, all.iter().map(|branch| branch.within).collect());
         Ok((
             array(q, [&each[..], &[self.dof]].concat())?,
