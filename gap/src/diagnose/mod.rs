@@ -7,14 +7,14 @@
 //!
 //! 1. `data`: the rows as they are to be explained, the folds, the noise.
 //! 2. `fit`: frames that are known to be unknown are fitted first, and along with everything after.
-//! 3. `sums`: one pass over the data sums up what every candidate (an effect at a place, in one
-//!    form) does to the measured quantities; all that is asked of it then is algebra.
-//! 4. `sight`: what this data cannot show is told before anything is fitted.
+//! 3. `normal_equations`: one pass over the data sums up what every candidate (an effect at a place, in one
+//!    form) does to the measured quantities; all that is asked of it then is algebra, `infer`'s.
+//! 4. `identifiability`: what this data cannot show is told before anything is fitted.
 //! 5. `search`: effects are added one by one, then fitted exactly, and the others taken back or
-//!    exchanged where that makes them superfluous.
+//!    exchanged where that makes them superfluous, by the evidence that logs are judged by, too.
 //! 6. `verdict`: the findings are held out together, every candidate is tried in the place of each,
 //!    and what is left is tested for structure.
-//! 7. `promise`: what was found as a model that predicts.
+//! 7. `prediction`: what was found as a model that predicts.
 //!
 //! [`Options`] say what may be chosen, a [`Diagnosis`] is what is reported.
 
