@@ -155,6 +155,7 @@ impl<S: Scalar + PartialOrd + Into<f64>, const N: usize, const K: usize> Solutio
 
 impl<S: Scalar + Into<f64>, const N: usize> Solution<S, N> {
     /// Each joint by whole turns as near to `near` as its limits allow; `None` where no turn is within them.
+    #[inline(always)]
     pub fn turned(&self, near: &[S; N], limits: &[Option<[f64; 2]>; N]) -> Option<Self> {
         let mut turned = *self;
         let each = turned.q.iter_mut().zip(&self.motion);
@@ -174,6 +175,7 @@ impl<S: Scalar + Into<f64>, const N: usize> Solution<S, N> {
 
 /// Of some branches that with the least change of the joints from `near`, by the sum of squares; each joint by whole turns as
 /// near as its limits allow. `None` where no branch is within the limits.
+#[inline(always)]
 pub fn nearest_branch<S: Scalar + Into<f64>, const N: usize>(
     branches: impl IntoIterator<Item = Solution<S, N>>,
     near: &[S; N],
