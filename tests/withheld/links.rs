@@ -31,6 +31,13 @@ fn diagnosed(real: &Arm, file: &Arm, seed: u64) -> LogDiagnosis {
     diagnose(file, &log, &LogOptions::default()).expect("a log that is diagnosed")
 }
 
+/// Sums of what is counted with seeds from the first.
+fn summed(first: u64, counted: impl Fn(u64) -> [usize; 3]) -> [usize; 3] {
+    let seeds = std::env::var("LINKS_SEEDS").ok().and_then(|n| n.parse().ok()).unwrap_or(4);
+    let sum = |sum: [usize; 3], own: [usize; 3]| core::array::from_fn(|k| sum[k] + own[k]);
+    (first..first + seeds).map(counted).fold([0; 3], sum)
+}
+
 /// Parameters of all logs, those that the motion determines, and those whose interval holds the truth.
 fn counted(robot: &str, seed: u64) -> [usize; 3] {
     let real = arm(robot);
@@ -63,11 +70,8 @@ fn counted(robot: &str, seed: u64) -> [usize; 3] {
 #[test]
 #[ignore = "takes minutes: see the head of this file"]
 fn full() {
-    let seeds = std::env::var("LINKS_SEEDS").ok().and_then(|n| n.parse().ok()).unwrap_or(4);
     for robot in ["ur10", "panda"] {
-        let each = (700..700 + seeds).map(|seed| counted(robot, seed));
-        let sum = |sum: [usize; 3], own: [usize; 3]| core::array::from_fn(|k| sum[k] + own[k]);
-        let [all, told, held] = each.fold([0; 3], sum);
+        let [all, told, held] = summed(700, |seed| counted(robot, seed));
         println!(
             "{robot}: {all} base parameters, {told} determined, the interval of {held} holds the truth"
         );
@@ -108,11 +112,8 @@ fn friction(robot: &str, seed: u64) -> [usize; 3] {
 #[test]
 #[ignore = "takes minutes: see the head of this file"]
 fn of_findings() {
-    let seeds = std::env::var("LINKS_SEEDS").ok().and_then(|n| n.parse().ok()).unwrap_or(4);
     for robot in ["ur10", "panda"] {
-        let each = (800..800 + seeds).map(|seed| friction(robot, seed));
-        let sum = |sum: [usize; 3], own: [usize; 3]| core::array::from_fn(|k| sum[k] + own[k]);
-        let [all, told, held] = each.fold([0; 3], sum);
+        let [all, told, held] = summed(800, |seed| friction(robot, seed));
         println!("{robot}: {all} numbers, {told} found, the interval of {held} holds the truth");
         assert!(10 * held >= 9 * told && 10 * told >= 9 * all, "{robot}: {held} of {told}");
     }

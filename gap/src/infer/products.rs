@@ -63,6 +63,16 @@ impl Products {
         self.add_scaled(other, 1.0);
     }
 
+    /// Holds the candidates' numbers: the products of a measurement of each as 0.
+    pub(crate) fn hold(&mut self, candidates: &[impl Columns]) {
+        for (own, candidate) in Arc::make_mut(&mut self.xx).iter_mut().zip(candidates) {
+            let squares = candidate.held().iter().map(|held| held * held);
+            // What is added once, whatever the numbers, is held to nothing.
+            let all = squares.chain(candidate.is_linearized().then_some(0.0));
+            own.set_diagonal(&DVector::from_iterator(candidate.columns(), all));
+        }
+    }
+
     /// Adds the products of rows that weigh `weight`.
     pub(crate) fn add_scaled(&mut self, other: &Products, weight: f64) {
         let plus = |mine: &mut [f64], theirs: &[f64]| {

@@ -105,7 +105,11 @@ fn variance<O: Observations>(data: &O, now: &O::Fit) -> f64 {
 
 /// Cost of the terms of a model, of some in the place of others by the `variance` that is left.
 pub(crate) fn costs<O: Observations>(data: &O, now: &O::Fit, variance: f64) -> Vec<f64> {
-    let basis = Basis::new(&data.normal(now));
+    costs_by(data, now, &Basis::new(&data.normal(now)), variance)
+}
+
+/// The same in a basis of the model's normal matrix.
+fn costs_by<O: Observations>(data: &O, now: &O::Fit, basis: &Basis, variance: f64) -> Vec<f64> {
     let numbers = data.scale(now).count();
     let terms = data.terms(now);
     let mut at = terms.nuisances;
@@ -151,12 +155,13 @@ fn changed<O: Observations>(
     end: bool,
 ) -> Result<Option<O::Fit>, O::Error> {
     let variance = variance(data, now);
-    let costs = costs(data, now, variance);
+    let basis = Basis::new(&data.normal(now));
+    let costs = costs_by(data, now, &basis, variance);
     let terms = data.terms(now);
     let (along, count) = (terms.along, terms.each.len());
     // One alone was just added.
     if count > 1
-        && let Some(term) = superfluous(data, now, &costs, variance)
+        && let Some(term) = superfluous(&terms, &basis, &costs, variance)
         && let Some(fit) = data.replaced(now, &[term], None, f64::INFINITY)?
     {
         return Ok(Some(fit));
@@ -220,14 +225,7 @@ fn exchanged<O: Observations>(
 }
 
 /// The term that costs most beyond what it explains beside all the others, if one does.
-fn superfluous<O: Observations>(
-    data: &O,
-    now: &O::Fit,
-    costs: &[f64],
-    variance: f64,
-) -> Option<usize> {
-    let basis = Basis::new(&data.normal(now));
-    let terms = data.terms(now);
+fn superfluous(terms: &Terms<'_>, basis: &Basis, costs: &[f64], variance: f64) -> Option<usize> {
     let mut at = terms.nuisances;
     let mut worst: Option<(f64, usize)> = None;
     for (index, term) in terms.each.iter().enumerate() {

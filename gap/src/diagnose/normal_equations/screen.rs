@@ -1,8 +1,6 @@
 //! The candidates against a model of a campaign: some of the gathered columns are the model's, each
 //! parameter and each candidate's number held to what is usual of it.
 
-use std::sync::Arc;
-
 use nalgebra::DVector;
 use rayon::prelude::*;
 
@@ -84,7 +82,7 @@ impl<'c> Screen<'c> {
         let sizes: Vec<usize> = candidates.iter().map(|c| c.size).collect();
         let mut prior = held(problem, model, &choice, &sizes);
         if !kept.free {
-            hold(&mut prior, candidates);
+            prior.hold(candidates);
         }
         let mut total = gathered.total.chosen(&choice);
         total.add(&prior);
@@ -119,12 +117,4 @@ fn held(problem: &Problem<'_>, model: &Model, choice: &Choice, sizes: &[usize]) 
         products.rr += bond.square();
     }
     products
-}
-
-/// Adds the same of the candidates' numbers.
-fn hold(products: &mut Products, candidates: &[Candidate]) {
-    for (own, candidate) in Arc::make_mut(&mut products.xx).iter_mut().zip(candidates) {
-        let squares = candidate.held.iter().map(|held| held * held);
-        own.set_diagonal(&DVector::from_iterator(candidate.size, squares));
-    }
 }

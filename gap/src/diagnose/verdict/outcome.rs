@@ -7,7 +7,7 @@ use crate::diagnose::data::{Folds, Problem};
 use crate::diagnose::fit::{Fit, Model, block};
 use crate::diagnose::options::DiagnoseError;
 use crate::diagnose::search::{Explained, Search};
-use crate::infer::{Basis, Observations, Products, RANK};
+use crate::infer::{Basis, Observations, Products, RANK, ordered};
 
 /// The effects of one finding: all forms of one effect at one place are one.
 pub(crate) type Group = Vec<usize>;
@@ -163,20 +163,13 @@ impl<'h> Held<'h> {
 
     /// The groups in the order in which they shrink the held-out gap most, and what is left before the
     /// first and after each, its squares by `weights`.
-    pub(crate) fn ordered(&self, groups: Vec<Group>, weights: &Vector6<f64>) -> Shrinking {
-        let mut rest = groups;
-        let mut done: Vec<Group> = Vec::new();
-        let mut values = vec![self.values(&[])];
-        while !rest.is_empty() {
-            let tried: Vec<DMatrix<f64>> = rest
-                .par_iter()
-                .map(|next| self.values(&done.iter().chain([next]).collect::<Vec<_>>()))
-                .collect();
-            let sizes: Vec<f64> = tried.iter().map(|values| self.squares(values)).collect();
-            let best = (0..rest.len()).min_by(|a, b| sizes[*a].total_cmp(&sizes[*b])).unwrap_or(0);
-            done.push(rest.remove(best));
-            values.extend(tried.into_iter().nth(best));
-        }
+    pub(crate) fn ordered(&self, groups: &[Group], weights: &Vector6<f64>) -> Shrinking {
+        let with =
+            |chosen: &[usize]| self.values(&chosen.iter().map(|k| &groups[*k]).collect::<Vec<_>>());
+        let each = ordered(groups.len(), with, |values| self.squares(values));
+        let (order, after): (Vec<usize>, Vec<DMatrix<f64>>) = each.into_iter().unzip();
+        let values: Vec<_> = std::iter::once(self.values(&[])).chain(after).collect();
+        let done = order.into_iter().map(|k| groups[k].clone()).collect();
         self.shrinking(done, &values, weights)
     }
 }
@@ -197,7 +190,7 @@ impl Search<'_, '_> {
     ) -> Result<(Explained, Shrinking), DiagnoseError> {
         loop {
             let groups = groups(self.problem, &now.fit.model);
-            let shrinking = Held::new(self, &now).ordered(groups, &now.weights);
+            let shrinking = Held::new(self, &now).ordered(&groups, &now.weights);
             let Shrinking { groups, squares, .. } = &shrinking;
             let idle = (0..groups.len()).rev().find(|&k| squares[k + 1] >= squares[k]);
             let Some(idle) = idle.filter(|_| !self.stopped()) else { return Ok((now, shrinking)) };

@@ -108,11 +108,7 @@ impl<'s> Search<'s, '_> {
         let widths: Vec<usize> = candidates.iter().map(Columns::columns).collect();
         let mut total = Products::zeros(now.fit.columns.len(), &widths);
         let mut prior = total.clone();
-        for (own, candidate) in std::sync::Arc::make_mut(&mut prior.xx).iter_mut().zip(candidates) {
-            let squares = candidate.held.iter().map(|held| held * held);
-            let squares = squares.chain(candidate.of.done.iter().map(|_| 0.0));
-            own.set_diagonal(&DVector::from_iterator(candidate.columns(), squares));
-        }
+        prior.hold(candidates);
         parts.iter().chain([&prior]).for_each(|part| total.add(part));
         let basis = Basis::ordered(&total.zz);
         let screen = Screen::new(candidates, basis, total, prior);

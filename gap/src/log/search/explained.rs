@@ -44,7 +44,8 @@ impl<'s> Search<'s, '_> {
 
     /// Terms fitted in the sizes of another model, which are its noise, too.
     pub fn fitted(&self, terms: &[Term], like: &Explained) -> Explained {
-        Explained { fit: Fitted::of(self.dict, terms, self.links, &like.sizes), ..like.clone() }
+        let fit = Fitted::of(self.dict, terms, self.links, &like.sizes);
+        Explained { fit, sizes: like.sizes.clone(), correlation: like.correlation.clone() }
     }
 
     /// A model without what is superfluous, and with what explains it better in the place of others.

@@ -21,8 +21,7 @@ pub fn nested(dict: &Dictionary<'_>, blocks: &Blocks, links: &Links, seed: u64) 
         let (columns, values) = search.converged(&last, &mut |_| {}).now.fit.bordered();
         let values = nalgebra::DVector::from_vec(values);
         let left = |joint: usize| {
-            let alone: Vec<f64> = (0..joints).map(|j| f64::from(u8::from(j == joint))).collect();
-            let products = sums.squares(&columns, &alone);
+            let products = sums.squares_of(joint, &columns);
             let own = products.iter().zip(&blocks.fold).filter(|(_, of)| **of == fold);
             own.map(|(product, _)| quadratic(product, &values)).sum()
         };

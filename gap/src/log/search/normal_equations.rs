@@ -37,6 +37,13 @@ impl Sums {
         all
     }
 
+    /// Products of some columns with each other at the rows of one joint, of each block.
+    pub fn squares_of(&self, joint: usize, columns: &[Mixed]) -> Vec<DMatrix<f64>> {
+        let alone = |other: usize| f64::from(u8::from(other == joint));
+        let weights: Vec<f64> = (0..self.joints.len()).map(alone).collect();
+        self.squares(columns, &weights)
+    }
+
     /// Of each block the products of some columns, the last of which is what is to be explained, and of
     /// entries beside them.
     pub(crate) fn linearized(

@@ -8,7 +8,7 @@ use super::dictionary::Mixed;
 use super::fit::{Fitted, weights};
 use super::judge::Verdict;
 use super::normal_equations::quadratic;
-use crate::infer::Basis;
+use crate::infer::{Basis, ordered};
 
 /// Products of all columns of a model, from which any of its terms may be left out.
 struct Parts {
@@ -27,19 +27,12 @@ impl Search<'_, '_> {
     pub fn ordered(
         &self,
         verdict: Verdict,
-        size: impl Fn(&[f64]) -> f64 + Sync,
+        size: impl Fn(&[f64]) -> f64,
     ) -> (Verdict, Vec<Vec<f64>>) {
         let parts = self.parts(&verdict);
-        let mut rest: Vec<usize> = (0..verdict.findings.len()).collect();
-        let (mut done, mut left) = (Vec::new(), Vec::new());
-        while !rest.is_empty() {
-            let with = |next: &usize| parts.left(&[&done[..], &[*next]].concat());
-            let tried: Vec<Vec<f64>> = rest.par_iter().map(with).collect();
-            let sizes: Vec<f64> = tried.iter().map(|left| size(left)).collect();
-            let best = (0..rest.len()).min_by(|a, b| sizes[*a].total_cmp(&sizes[*b])).unwrap_or(0);
-            done.push(rest.remove(best));
-            left.extend(tried.into_iter().nth(best));
-        }
+        let count = verdict.findings.len();
+        let each = ordered(count, |terms| parts.left(terms), |left: &Vec<f64>| size(left));
+        let (done, left): (Vec<usize>, Vec<Vec<f64>>) = each.into_iter().unzip();
         let Verdict { findings, mut now, blocks } = verdict;
         let terms: Vec<_> = done.iter().map(|k| now.fit.terms[*k].clone()).collect();
         now.fit = Fitted::of(self.dict, &terms, self.links, &now.sizes);
@@ -63,18 +56,17 @@ impl Search<'_, '_> {
         }
         columns.push(self.dict.left(self.links, &[]));
         let (sums, count) = (self.dict.sums(blocks), columns.len());
-        let folds = |weights: &[f64]| {
+        let folds = |products: Vec<DMatrix<f64>>| {
             let mut folds = vec![DMatrix::zeros(count, count); blocks.folds];
-            let products = sums.squares(&columns, weights);
             products.iter().zip(&blocks.fold).for_each(|(own, fold)| folds[*fold] += own);
             folds
         };
-        let told = folds(&weights(&verdict.now.sizes));
+        let told = folds(sums.squares(&columns, &weights(&verdict.now.sizes)));
         let whole = told.iter().fold(DMatrix::zeros(count, count), |sum, fold| sum + fold);
         let joints = verdict.now.sizes.len();
         let own = (0..joints).into_par_iter().map(|joint| {
-            let alone: Vec<f64> = (0..joints).map(|j| f64::from(u8::from(j == joint))).collect();
-            (folds(&alone), self.dict.rows_of(blocks, joint).iter().sum())
+            let rows = self.dict.rows_of(blocks, joint).iter().sum();
+            (folds(sums.squares_of(joint, &columns)), rows)
         });
         let others = told.iter().map(|fold| &whole - fold).collect();
         Parts { links, terms, others, own: own.collect() }

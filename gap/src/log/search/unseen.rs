@@ -50,8 +50,7 @@ impl Unseen {
             (0..blocks.folds).map(|fold| without(&products, blocks, fold)).collect();
         let count = sizes.len();
         let of_joint = |joint: usize| {
-            let alone: Vec<f64> = (0..count).map(|j| f64::from(u8::from(j == joint))).collect();
-            let own = sums.squares(&columns, &alone);
+            let own = sums.squares_of(joint, &columns);
             let left = own.iter().zip(&blocks.fold);
             Joint {
                 squares: left.map(|(own, fold)| quadratic(own, &values[*fold])).collect(),
