@@ -35,7 +35,7 @@ pub use settings::{IN_MOTION, Settings};
 pub use together::{Said, Together};
 
 use super::Verdict;
-use crate::document::{Document, Embedded};
+use crate::document::{Document, Embedded, TOP};
 use crate::host::Host;
 use crate::input::quantity::{self, counted};
 use crate::input::source::{RobotArgs, Source};
@@ -90,8 +90,11 @@ pub struct Args {
     /// Write the diagnosis as one self-contained page
     #[arg(long, value_name = "OUT.html")]
     report: Option<Target>,
+    /// Print the evidence of so many findings, the largest first; of the others their numbers
+    #[arg(long, value_name = "N", default_value_t = TOP, hide_default_value = true)]
+    top: usize,
     /// Print every finding, parameter and reason, however small
-    #[arg(long)]
+    #[arg(long, conflicts_with = "top")]
     all: bool,
 }
 
@@ -130,12 +133,13 @@ pub trait Found: Send + Sync {
     /// [`Failure`]: a log of currents, which tell no newton-metres.
     fn robot(&self) -> Result<(Vec<String>, Robot), Failure>;
 
-    /// The diagnosis as it stands on a screen, or `all` of it.
+    /// The diagnosis as it stands on a screen, with the evidence of the first `top` findings; of [`usize::MAX`] all of
+    /// it.
     ///
     /// # Errors
     /// As [`Found::document`].
-    fn text(&self, all: bool) -> Result<String, Failure> {
-        Ok(self.document(false)?.0.text(all))
+    fn text(&self, top: usize) -> Result<String, Failure> {
+        Ok(self.document(false)?.0.text(top))
     }
 
     /// The page in HTML.
@@ -183,7 +187,7 @@ pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     host.put(&args.report, || found.page())?;
     let [robot, urdf, mjcf] = args.arms();
     if host.shows(&[&args.json, &args.report, robot, urdf, mjcf]) {
-        host.print(&found.text(args.all)?)?;
+        host.print(&found.text(if args.all { usize::MAX } else { args.top })?)?;
     }
     Ok(match found.campaign() {
         Some(found) if found.is_unexplained() => Verdict::Unexplained,

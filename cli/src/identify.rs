@@ -16,6 +16,7 @@ use stiffarm_gap::identify::measured::{
 use stiffarm_gap::measurement::Dimension;
 
 use super::Verdict;
+use crate::document::TOP;
 use crate::host::Host;
 use crate::input::data::{self, BenchArgs};
 use crate::input::quantity;
@@ -118,7 +119,7 @@ pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     };
     host.put(&args.report, || identified.document(true).html(&identified.embedded(&result)?))?;
     if host.shows(&[&args.json, &args.write_robot, &args.report]) {
-        host.print(&identified.document(false).text(false))?;
+        host.print(&identified.document(false).text(TOP))?;
     }
     Ok(Verdict::Good)
 }

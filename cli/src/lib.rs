@@ -45,6 +45,7 @@ pub use diagnose::{
     Campaign, Catalogues, Format, Found, Motion, Predicted, PredictedLog, Settings, Together,
     diagnose,
 };
+pub use document::TOP;
 use host::{Ended, Host};
 pub use input::source::{RobotArgs, Source};
 pub use map::Axes;

@@ -13,7 +13,7 @@ use stiffarm_kernels::generic::Arm;
 
 use super::Verdict;
 use super::simulate::ExperimentArgs;
-use crate::document::Embedded;
+use crate::document::{Embedded, TOP};
 use crate::host::Host;
 use crate::input::named;
 use crate::input::quantity::counted;
@@ -100,7 +100,7 @@ pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     host.put(&args.json, || json::text(&report))?;
     host.put(&args.report, || document.html(&Embedded::new((), &report, "")?))?;
     if !args.is_enough(host) {
-        host.print(&document.text(false))?;
+        host.print(&document.text(TOP))?;
     }
     Ok(Verdict::Good)
 }

@@ -9,7 +9,7 @@ use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 use stiffarm_cli::host::Host;
-use stiffarm_cli::{Catalogues, Format, Predicted, PredictedLog, RobotArgs, Settings};
+use stiffarm_cli::{Catalogues, Format, Predicted, PredictedLog, RobotArgs, Settings, TOP};
 use stiffarm_gap::diagnose::Prediction;
 use stiffarm_gap::log::model::{Explained, JointRows};
 
@@ -40,7 +40,7 @@ impl Found {
 
     /// As it stands on a screen.
     fn text(&self, py: Python<'_>) -> PyResult<String> {
-        let text = py.detach(|| self.found.text(false));
+        let text = py.detach(|| self.found.text(TOP));
         text.map_err(|failure| error(py, &failure))
     }
 

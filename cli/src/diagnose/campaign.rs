@@ -103,11 +103,14 @@ impl Campaign {
         drop(stages);
         // All that follows is of the file without its mistakes.
         let (mut source, mut arm, mut data) = (source, arm, data);
-        if let Some(mended) = diagnosed.mended.take() {
+        let mut mended = diagnosed.mended.take();
+        if let Some(mended) = &mut mended {
             source.robot = mended.robot(&source.robot);
-            (arm, data) = (mended.arm, mended.data);
+            arm.clone_from(&mended.arm);
+            std::mem::swap(&mut data, &mut mended.data);
         }
-        let check = other.map(|other| Check::of(&diagnosed, &data, &other)).transpose()?;
+        let check = |other| Check::of(&diagnosed, mended.as_ref(), &data, &other);
+        let check = other.map(check).transpose()?;
         let found = &diagnosed.diagnosis;
         let made = Provenance::of(first, hash, &source.text, host)?;
         let compared = settings.compare.as_ref();

@@ -16,6 +16,7 @@ pub mod words;
 
 use figure::Picture;
 pub use page::Embedded;
+pub use screen::TOP;
 pub use table::{Cell, Row, Table};
 pub use unit::{Unit, Units};
 

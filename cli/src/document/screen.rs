@@ -21,8 +21,8 @@ const MARGIN: usize = 14;
 /// Where the details of a finding begin.
 const DETAIL: usize = 5;
 
-/// Findings that are shown with their parameters.
-const DETAILED: usize = 4;
+/// Findings that are shown with their evidence, where nothing else is asked for.
+pub const TOP: usize = 4;
 
 /// Entries of a list before the rest is counted.
 const MOST: usize = 4;
@@ -34,14 +34,14 @@ const MOST_PARAMETERS: usize = 8;
 const LEAST: f64 = 0.01;
 
 impl Document {
-    /// The document as text; `all` of it, or what fits on a screen.
-    pub fn text(&self, all: bool) -> String {
+    /// The document as text; the first `top` findings with their evidence, of [`usize::MAX`] all that there is.
+    pub fn text(&self, top: usize) -> String {
         let facts = dim(wrapped(&self.facts, WIDTH, 2).trim_end());
         let head = format!("{}\n{facts}\n", bold(&self.robot));
         let mut text = head;
         let mut last = None;
         for block in &self.blocks {
-            let next = block.text(all);
+            let next = block.text(top);
             if next.is_empty() {
                 continue;
             }
@@ -63,7 +63,8 @@ impl Block {
         is_note(self) && is_note(next) || is_said(self) && is_said(next)
     }
 
-    fn text(&self, all: bool) -> String {
+    fn text(&self, top: usize) -> String {
+        let all = top == usize::MAX;
         match self {
             Block::Sentence(text) | Block::Paragraph(text) => wrapped(text, WIDTH, 0),
             Block::Verdict(passed, text) => {
@@ -76,7 +77,7 @@ impl Block {
                 };
                 toned + "\n"
             }
-            Block::Section { heading, remark, blocks } => section(heading, remark, blocks, all),
+            Block::Section { heading, remark, blocks } => section(heading, remark, blocks, top),
             Block::Note { name, lines, most } => {
                 let most = if all { lines.len() } else { *most };
                 let mut text = String::new();
@@ -100,8 +101,8 @@ impl Block {
             }
             Block::List(entries) => entries.iter().map(|e| wrapped(e, WIDTH - 2, 2)).collect(),
             Block::Table(rows) => rows.text(""),
-            Block::Findings { large, summary, small } => findings(large, summary, small, all),
-            Block::Document(document, _) => document.text(all),
+            Block::Findings { large, summary, small } => findings(large, summary, small, top),
+            Block::Document(document, _) => document.text(top),
             Block::Facts(_) | Block::Csv(_) | Block::Json | Block::Figure(..) | Block::Page(_) => {
                 String::new()
             }
@@ -111,11 +112,11 @@ impl Block {
 
 /// A heading and what stands below it; of a table its heads stand beside the heading. What only a page
 /// shows has no heading on a screen.
-fn section(heading: &str, remark: &str, blocks: &[Block], all: bool) -> String {
+fn section(heading: &str, remark: &str, blocks: &[Block], top: usize) -> String {
     if let ([Block::Table(first), rest @ ..], "") = (blocks, remark) {
-        return first.text(heading) + &below(rest, all);
+        return first.text(heading) + &below(rest, top);
     }
-    let text = below(blocks, all);
+    let text = below(blocks, top);
     let heading = match remark {
         "" => bold(heading),
         remark => format!("{}  {}", bold(heading), dim(remark)),
@@ -123,8 +124,8 @@ fn section(heading: &str, remark: &str, blocks: &[Block], all: bool) -> String {
     if text.is_empty() { text } else { wrapped(&heading, WIDTH, 2) + &text }
 }
 
-fn below(blocks: &[Block], all: bool) -> String {
-    blocks.iter().map(|block| indented(&block.text(all), 2)).collect()
+fn below(blocks: &[Block], top: usize) -> String {
+    blocks.iter().map(|block| indented(&block.text(top), 2)).collect()
 }
 
 impl Table {
@@ -157,8 +158,8 @@ impl Cell {
     }
 }
 
-fn findings(large: &[Finding], summary: &str, small: &[Finding], all: bool) -> String {
-    let shown: Vec<&Finding> = large.iter().chain(small.iter().filter(|_| all)).collect();
+fn findings(large: &[Finding], summary: &str, small: &[Finding], top: usize) -> String {
+    let shown: Vec<&Finding> = large.iter().chain(small).take(large.len().max(top)).collect();
     let row = |f: &&Finding| {
         let [before, after] = f.parts;
         vec![
@@ -173,31 +174,37 @@ fn findings(large: &[Finding], summary: &str, small: &[Finding], all: bool) -> S
     let mut text = String::new();
     for (k, (line, finding)) in table(&rows, &[Align::Right]).lines().zip(&shown).enumerate() {
         text.push_str(&format!("{line}\n"));
-        if all || k < DETAILED {
-            text.push_str(&details(finding, all));
+        text.push_str(&numbers(finding, top == usize::MAX));
+        if k < top {
+            text.push_str(&evidence(finding, top == usize::MAX));
         }
     }
-    if !all && large.len() > DETAILED {
-        text.push_str("The details of the others: --all\n");
+    if large.len() > top {
+        text.push_str(&format!("The evidence of the others: --top {} or --all\n", large.len()));
     }
-    if !all && !summary.is_empty() {
+    if shown.len() == large.len() && !summary.is_empty() && top != usize::MAX {
         text.push_str(&wrapped(&format!("{}: --all", capital(summary)), WIDTH - 2, 2));
     }
     text
 }
 
-fn details(finding: &Finding, all: bool) -> String {
-    let most = |most: usize| if all { usize::MAX } else { most };
-    let mut parameters: Vec<String> =
-        finding.parameters.iter().take(most(MOST_PARAMETERS)).cloned().collect();
+/// What a finding amounts to.
+fn numbers(finding: &Finding, all: bool) -> String {
+    let most = if all { usize::MAX } else { MOST_PARAMETERS };
+    let mut parameters: Vec<String> = finding.parameters.iter().take(most).cloned().collect();
     let rest = finding.parameters.len() - parameters.len();
     parameters.extend((rest > 0).then(|| format!("and {rest} more")));
+    paragraph(&parameters.join("; "))
+}
+
+/// What speaks for a finding, and what is not distinguishable from it.
+fn evidence(finding: &Finding, all: bool) -> String {
     let mut evidence = finding.evidence.clone();
     let next = finding.next.as_ref().filter(|_| finding.same.is_empty());
     evidence.extend(next.map(|next| format!("; next best: {next}")));
-    let mut text = paragraph(&parameters.join("; ")) + &paragraph(&evidence);
+    let mut text = paragraph(&evidence);
     if !finding.same.is_empty() {
-        let names = listed(&finding.same, most(MOST));
+        let names = listed(&finding.same, if all { usize::MAX } else { MOST });
         text.push_str(&paragraph(&format!("{}: {names}", bad("not distinguishable from"))));
     }
     if let Some(advice) = &finding.advice {

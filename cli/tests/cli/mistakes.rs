@@ -95,6 +95,16 @@ fn exchanged_coordinates_are_to_be_mended_in_the_measurements() {
     let data = file(&folder, "exchanged.csv", &header, &rows);
     let shown = good(&format!("diagnose ur5 {data} {FRAMES}"));
     assert!(shown.contains("exchange the names x and y"), "{shown}");
+    // Another file with the same mistake is read without it, and one that has it not as it is.
+    let right = folder.name("given.csv");
+    for (other, is_mended) in [(&data, true), (&right, false)] {
+        let json = folder.name("found.json");
+        let shown = good(&format!("diagnose ur5 {data} {FRAMES} --check {other} --json {json}"));
+        let check = &crate::support::json(&read(&json))["check"];
+        assert_eq!(check.get("mended").is_some(), is_mended, "{check}");
+        assert!(check["after"]["position_rms"].as_f64().is_some_and(|left| left < 1e-4), "{check}");
+        assert_eq!(shown.contains("mended as these readings are"), is_mended, "{shown}");
+    }
 }
 
 #[test]

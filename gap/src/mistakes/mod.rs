@@ -165,6 +165,19 @@ fn known(mistakes: &[Mistake], known: &[Known], catalogue: &Catalogue) -> Vec<Kn
 }
 
 impl Mended {
+    /// Another file of the arm, its readings mended as those were; `None` if nothing is wrong with them. From where
+    /// on a reading is stuck says nothing of another file.
+    pub fn readings(&self, other: &Measurements) -> Option<Measurements> {
+        let again: Vec<Mistake> = self
+            .mistakes
+            .iter()
+            .filter(|mistake| !mistake.is_of_robot() && !mistake.is_stuck())
+            .copied()
+            .collect();
+        let fits = other.kind.is_pose() && other.rows.iter().all(|r| r.q.len() == self.arm.dof());
+        (fits && !again.is_empty()).then(|| Rows::of(&self.arm, other, &[]).mended(&again))
+    }
+
     /// The robot file without the mistakes that its table has.
     pub fn robot(&self, robot: &Robot) -> Robot {
         let mut robot = robot.clone();

@@ -130,7 +130,8 @@ impl Campaign<'_> {
 
     fn checked(&self) -> String {
         let Some(check) = self.check else { return String::new() };
-        let of = format!("{} of the {} rows of {}", check.inside, check.rows, check.file);
+        let mended = if check.mended { ", mended as these readings are," } else { "" };
+        let of = format!("{} of the {} rows of {}{mended}", check.inside, check.rows, check.file);
         let within = "within the joint ranges, loads and leverage of these data";
         let all = check.all.as_ref().map(|[before, after]| {
             format!("on all rows, extrapolated, {}", self.shrunk(before, after))
