@@ -11,6 +11,7 @@ use stiffarm_kernels::generic::Arm;
 use super::read::TorqueSide;
 use super::rigid::works::Works;
 use super::signal::Signals;
+use super::signal::filter::sign;
 
 /// What the rows are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -180,9 +181,9 @@ impl<'a> Scene<'a> {
         then
     }
 
-    /// Which way a joint moves at a fine sample.
+    /// Which way a joint moves at a fine sample, in the mean over its step.
     pub fn sign(&self, joint: usize, k: usize) -> f64 {
-        self.signals.qd[joint][k].signum()
+        sign(&self.signals.qd[joint], k)
     }
 
     /// What friction and rotor of the robot file ask of a drive at a fine sample, where the torque is

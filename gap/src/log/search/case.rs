@@ -13,6 +13,7 @@ use crate::log::rigid::Base;
 use crate::log::rigid::works::Works;
 use crate::log::scene::{Column, Domain, Loads, Scene};
 use crate::log::signal::Signals;
+use crate::log::signal::filter::sign;
 
 /// What changes by less than this part is found.
 pub const FOUND: f64 = 1e-3;
@@ -251,7 +252,9 @@ impl Case<'_> {
             let is_driven = self.kind.1.is_some_and(TorqueSide::is_driven);
             let more = if is_driven { [drive.coulomb, drive.viscous] } else { [0.0; 2] };
             let [coulomb, viscous] = [coulomb + more[0], viscous + more[1]];
-            signals.qd[joint].iter().map(|v| coulomb * v.signum() + viscous * v).collect()
+            let speeds = &signals.qd[joint];
+            let braked = |(k, v): (usize, &f64)| coulomb * sign(speeds, k) + viscous * v;
+            speeds.iter().enumerate().map(braked).collect()
         };
         loads.friction = simple.friction.iter().enumerate().map(friction).collect();
         loads.numbers = base.numbers(&values);

@@ -121,9 +121,9 @@ impl InMotion for MotorCoupling {
             let parts = [(a, b), (b, a)].map(|(on, from)| scene.column(on, |k| sum * of[from][k]));
             Column { parts: parts.into_iter().flat_map(|column| column.parts).collect() }
         };
-        let way = |k: usize| (qd[a][k] + sum * qd[b][k]).signum();
-        let mut brake = scene.column(a, way);
-        brake.parts.extend(scene.column(b, |k| sum * way(k)).parts);
+        let between: Vec<f64> = qd[a].iter().zip(&qd[b]).map(|(a, b)| a + sum * b).collect();
+        let mut brake = scene.column(a, |k| sign(&between, k));
+        brake.parts.extend(scene.column(b, |k| sum * sign(&between, k)).parts);
         vec![crossed(qdd), crossed(qd), brake]
     }
 }
