@@ -11,7 +11,6 @@ use stiffarm_kernels::generic::Arm;
 use super::read::TorqueSide;
 use super::rigid::works::Works;
 use super::signal::Signals;
-use super::signal::filter::sign;
 
 /// What the rows are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -181,9 +180,9 @@ impl<'a> Scene<'a> {
         then
     }
 
-    /// Which way a joint moves at a fine sample, in the mean over its step.
+    /// Which way a joint moves at a fine sample.
     pub fn sign(&self, joint: usize, k: usize) -> f64 {
-        sign(&self.signals.qd[joint], k)
+        self.signals.sign(&self.signals.qd[joint], k)
     }
 
     /// What friction and rotor of the robot file ask of a drive at a fine sample, where the torque is

@@ -13,7 +13,6 @@ use crate::log::rigid::Base;
 use crate::log::rigid::works::Works;
 use crate::log::scene::{Column, Domain, Loads, Scene};
 use crate::log::signal::Signals;
-use crate::log::signal::filter::sign;
 
 /// What changes by less than this part is found.
 pub const FOUND: f64 = 1e-3;
@@ -253,7 +252,7 @@ impl Case<'_> {
             let more = if is_driven { [drive.coulomb, drive.viscous] } else { [0.0; 2] };
             let [coulomb, viscous] = [coulomb + more[0], viscous + more[1]];
             let speeds = &signals.qd[joint];
-            let braked = |(k, v): (usize, &f64)| coulomb * sign(speeds, k) + viscous * v;
+            let braked = |(k, v): (usize, &f64)| coulomb * signals.sign(speeds, k) + viscous * v;
             speeds.iter().enumerate().map(braked).collect()
         };
         loads.friction = simple.friction.iter().enumerate().map(friction).collect();

@@ -101,17 +101,23 @@ pub fn rate(x: &[f64], period: f64) -> Vec<f64> {
     (0..n).map(|k| slope(k) / period).collect()
 }
 
-/// The sign of what even samples are of, as a low-pass is to see it. The sign of each sample by itself turns up to half a
-/// step before or behind the zero; its low-pass then errs by that, which an effect near standstill would explain.
-/// Here each turn, where the line between two samples has its zero, is spread over four steps by the weights of the
-/// cubic through them, so that its low-pass is right to the fourth order of a step.
-pub fn sign(x: &[f64], k: usize) -> f64 {
+/// The sign of what even samples are of, as their low-pass is to see it, where a step was sampled `finer` times as often
+/// before it was thinned. A torque is read at a log's samples: friction there turns halfway between the two around a
+/// zero. The sign of each thinned sample would turn up to half a thinned step away; its low-pass then errs by that,
+/// which an effect near standstill would explain. Here a turn is spread over four steps by the weights of the cubic
+/// through them, so that its low-pass is right to the fourth order of a step; of steps as they were logged it is the
+/// plain sign.
+pub fn sign(x: &[f64], k: usize, finer: usize) -> f64 {
     let own = if x[k] == 0.0 { 0.0 } else { x[k].signum() };
+    if finer == 1 {
+        return own;
+    }
     let turns = k.saturating_sub(2)..(k + 2).min(x.len() - 1);
     let turns = turns.filter(|before| x[*before] * x[before + 1] < 0.0);
     let more = turns.map(|before| {
         let (from, to) = (x[before], x[before + 1]);
-        let zero = before as f64 + from / (from - to);
+        let between = from / (from - to) * finer as f64;
+        let zero = before as f64 + (between.floor() + 0.5) / finer as f64;
         to.signum() * (turned(k as f64 - zero, zero) - (k as f64 - zero).signum())
     });
     own + more.sum::<f64>()
@@ -208,10 +214,12 @@ mod tests {
     #[test]
     fn a_sign_turns_where_its_zero_is() {
         for part in [0.1, 0.45, 0.5, 0.8] {
-            let zero = 5.0 + part;
-            let x: Vec<f64> = (0..12).map(|k| 0.3 * (f64::from(k) - zero)).collect();
+            let x: Vec<f64> = (0..12).map(|k| 0.3 * (f64::from(k) - 5.0 - part)).collect();
             // Where the sign turns in the steps, 2 in all: the differences of the samples, at the ends of their steps.
-            let turns: Vec<f64> = (1..12).map(|k| 0.5 * (sign(&x, k) - sign(&x, k - 1))).collect();
+            let turn = |k: usize| 0.5 * (sign(&x, k, 5) - sign(&x, k - 1, 5));
+            let turns: Vec<f64> = (1..12).map(turn).collect();
+            // Halfway between two of the finer samples.
+            let zero = 5.0 + ((part * 5.0).floor() + 0.5) / 5.0;
             for power in 0..4 {
                 let moment = |k: usize| turns[k] * (k as f64 + 0.5 - zero).powi(power);
                 let sum: f64 = (0..turns.len()).map(moment).sum();
@@ -219,7 +227,8 @@ mod tests {
                 assert!((sum - whole).abs() < 1e-12, "{part}, {power}: {sum}");
             }
         }
-        assert_eq!((sign(&[0.0; 3], 1), sign(&[-2.0], 0)), (0.0, -1.0));
+        assert_eq!((sign(&[0.0; 3], 1, 4), sign(&[-2.0], 0, 4)), (0.0, -1.0));
+        assert_eq!((sign(&[-1.0, 0.1], 0, 1), sign(&[-1.0, 0.1], 1, 1)), (-1.0, 1.0));
     }
 
     #[test]

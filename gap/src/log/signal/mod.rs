@@ -89,6 +89,8 @@ pub struct Signals {
     pub repeated: Option<(usize, f64)>,
     /// The runs of each motion that there is in several of them: they are averaged to the first.
     pub alike: Vec<Vec<usize>>,
+    /// Samples of the log per fine one.
+    thin: usize,
     /// Fine samples per one that is kept.
     every: usize,
     filter: Option<LowPass>,
@@ -152,6 +154,7 @@ impl Signals {
             period,
             repeated,
             alike,
+            thin,
             every,
             filter: LowPass::new(band, period),
         };
@@ -238,6 +241,11 @@ impl Signals {
             now.extend(smooth);
         }
         (now, later)
+    }
+
+    /// Which way something moves at a fine sample, of its speeds at all of them.
+    pub fn sign(&self, speeds: &[f64], k: usize) -> f64 {
+        filter::sign(speeds, k, self.thin)
     }
 
     /// Brings torques that are told `delay` s late beside the motion that they belong to.

@@ -122,8 +122,9 @@ impl InMotion for MotorCoupling {
             Column { parts: parts.into_iter().flat_map(|column| column.parts).collect() }
         };
         let between: Vec<f64> = qd[a].iter().zip(&qd[b]).map(|(a, b)| a + sum * b).collect();
-        let mut brake = scene.column(a, |k| sign(&between, k));
-        brake.parts.extend(scene.column(b, |k| sum * sign(&between, k)).parts);
+        let way = |k: usize| scene.signals.sign(&between, k);
+        let mut brake = scene.column(a, way);
+        brake.parts.extend(scene.column(b, |k| sum * way(k)).parts);
         vec![crossed(qdd), crossed(qd), brake]
     }
 }
