@@ -125,13 +125,13 @@ pub fn diagnosed_with(
         late: known_delay.abs(),
         left_out: &left_out,
     };
-    let mut simple = Simple::of(&case, options.seed);
+    let links = links(&case, options);
+    let mut simple = Simple::of(&case, &links, options.seed);
     let case = match domain {
         Domain::Torque => Case { late: case.late + simple.delay.abs(), ..case },
         Domain::Position => case,
     };
     let mut wanted = search::wanted(&case, &simple, &options.catalogue, options.effects.as_deref());
-    let links = links(&case, options);
     if links == Links::Free {
         wanted.retain(|(effect, spot, _)| {
             effect.carried(arm, *spot).is_none_or(|carried| carried.run.is_some())
@@ -160,8 +160,7 @@ pub fn diagnosed_with(
         let verdict = search.converged(&last, &mut each);
         // What is made of loads is made of those of the links as they are fitted beside it.
         let of_loads = verdict.now.fit.terms.iter().any(|term| term.effect.is_of_loads());
-        let better = of_loads && links == Links::Free;
-        let better = better && simple.moved_to(&dict, &verdict.now.fit.values[..dict.base]);
+        let better = of_loads && simple.moved_to(&dict, verdict.now.fit.rigid(&dict));
         if again == AGAIN || !(better || moved_on(&dict, &verdict.now.fit.terms)) {
             break search.ordered(verdict, |left| told.mean(left));
         }
@@ -185,10 +184,7 @@ pub fn diagnosed_with(
     };
     let nested = options.nested.then(|| nested(&dict, blocks, &links, options.seed));
     let depends_on = dependences(&dict, &verdict, options.seed);
-    let rigid = |fitted: &[f64]| match &links {
-        Links::Known(values) => values.clone(),
-        Links::Free => fitted[..dict.base].to_vec(),
-    };
+    let rigid = |fitted: &[f64]| links.values(fitted, dict.base);
     let acting = |term: &Term| Acting {
         effect: term.effect,
         spot: term.spot,

@@ -4,7 +4,7 @@ use stiffarm_kernels::generic::Arm;
 
 use super::delay;
 use super::dictionary::{Dictionary, Mixed};
-use super::fit::Term;
+use super::fit::{Links, Term};
 use super::ripples;
 use crate::log::effects::{LogEffect, Spot};
 use crate::log::model::Acting;
@@ -83,19 +83,19 @@ impl Simple {
 
     /// With the links' values as they were fitted beside findings; whether what they ask of some joint has changed by more
     /// than [`FOUND`].
-    pub fn moved_to(&mut self, dict: &Dictionary<'_>, values: &[f64]) -> bool {
+    pub fn moved_to(&mut self, dict: &Dictionary<'_>, values: Vec<f64>) -> bool {
         let columns: Vec<Mixed> = (0..values.len()).map(Mixed::one).collect();
         let less: Vec<f64> = values.iter().zip(&self.values).map(|(to, from)| to - from).collect();
         let sizes = |values: &[f64]| dict.sizes(&columns, values);
-        let pairs = sizes(&less).into_iter().zip(sizes(values));
+        let pairs = sizes(&less).into_iter().zip(sizes(&values));
         let has_moved = pairs.into_iter().any(|(change, size)| change > FOUND * size);
-        self.values = values.to_vec();
+        self.values = values;
         has_moved
     }
 
-    /// Of a log: rigid links, friction and zeros, fitted to as much of it as is enough. Of position rows a
-    /// delay.
-    pub fn of(case: &Case<'_>, seed: u64) -> Simple {
+    /// Of a log: rigid links, as they are known or fitted, friction and zeros, fitted to as much of it as is enough. Of
+    /// position rows a delay.
+    pub fn of(case: &Case<'_>, links: &Links, seed: u64) -> Simple {
         let nothing = Simple::nothing(case);
         let thinned = case.signals.t.len().div_ceil(ENOUGH);
         if case.kind.0 == Domain::Position {
@@ -111,7 +111,7 @@ impl Simple {
                 .map(|(coulomb, viscous)| [coulomb, viscous])
                 .collect(),
             ripples: ripples::found(&dict, &fit.sampled(&dict), seed),
-            values: fit.values[..dict.base].to_vec(),
+            values: links.values(&fit.values, dict.base),
             delay: late,
         }
     }

@@ -34,6 +34,16 @@ pub enum Links {
     Known(Vec<f64>),
 }
 
+impl Links {
+    /// The values of their columns, of a fit whose first `base` values they are where nothing is known.
+    pub fn values(&self, fitted: &[f64], base: usize) -> Vec<f64> {
+        match self {
+            Links::Free => fitted[..base].to_vec(),
+            Links::Known(values) => values.clone(),
+        }
+    }
+}
+
 /// A fit.
 #[derive(Clone)]
 pub struct Fitted {
@@ -96,6 +106,19 @@ impl Fitted {
             term.values = from.zip(&mut found).map(|(from, by)| from + by).collect();
         }
         Fitted { terms, columns, left, values, links: links.clone() }
+    }
+
+    /// The values of the rigid links' columns, with what terms change of them in every run.
+    pub fn rigid(&self, dict: &Dictionary<'_>) -> Vec<f64> {
+        let mut values = self.links.values(&self.values, dict.base);
+        let is_carried = |term: &&Term| dict.case.carried(term.effect, term.spot).is_some();
+        for term in self.terms.iter().filter(is_carried) {
+            let columns = dict.entry(term).columns.iter().zip(&term.values);
+            for (column, value) in columns.filter(|(column, _)| column.run.is_none()) {
+                column.of.iter().for_each(|(row, x)| values[*row] += x * value);
+            }
+        }
+        values
     }
 
     /// The columns and the left side, with their values and −1.
