@@ -84,6 +84,39 @@ fn friction_of_the_file_is_taken_back() {
     }
 }
 
+/// Of links whose numbers are known a scale multiplies what those ask, not what is fitted to the scaled torques.
+#[test]
+fn a_scale_of_known_links_is_told_whole() {
+    let log = Recorder::new(65, 6000, 0.1).torques(|now| {
+        let [first, second] = now.rigid_and([0.0; 2]);
+        ([1.3 * first, second], [0.0; 2])
+    });
+    let side = Some(TorqueSide::Motor);
+    let options = LogOptions { band: Some(10.0), side, known_links: true, ..LogOptions::default() };
+    let found = diagnose(&arm(), &log, &options).unwrap();
+    let all = named(&found);
+    assert_eq!((all.len(), all[0].0, all[0].1), (1, "torque_scale", "joint 1"), "{all:?}");
+    assert!((all[0].2 - 0.3).abs() < 2e-3, "{all:?}");
+}
+
+/// Of sixteen samples one is kept, and a joint turns round between two of them: no effect near standstill is made of it.
+#[test]
+fn friction_is_all_there_is_of_a_log_that_is_thinned() {
+    let recorder = Recorder { step: 0.002, ..Recorder::new(66, 30_000, 0.05) };
+    let log = recorder.torques(|now| {
+        let brakes = |j: usize| FRICTION[j][0] * now.v[j].signum() + FRICTION[j][1] * now.v[j];
+        (now.rigid_and([0, 1].map(brakes)), [0.0; 2])
+    });
+    let found = super::plant::diagnosed(&log, 3.0);
+    let all = named(&found);
+    assert_eq!(all.len(), 4, "{all:?}");
+    for (effect, place, value) in all {
+        let joint = usize::from(place == "joint 2");
+        let there = FRICTION[joint][usize::from(effect == "viscous_friction")];
+        assert!((value / there - 1.0).abs() < 5e-3, "{effect} at {place}: {value}, not {there}");
+    }
+}
+
 #[test]
 fn one_number_at_every_joint_is_doubted() {
     let alike = |arm: &mut Arm, by: f64| {
