@@ -4,6 +4,7 @@ use super::effects::{Catalogue, LogEffect, Spot};
 use super::pace::Pace;
 use super::scene::{Domain, Loads};
 use super::search::case::{Case, Simple, Wanted};
+use super::search::fit::Links;
 use super::search::judge::Verdict;
 use crate::effects::Place;
 use crate::report::{CannotSee, Hidden};
@@ -24,12 +25,13 @@ pub fn hidden(
         let why = Hidden::InMotion { reason: reason.to_owned() };
         hidden.push(CannotSee { effect: effect.into(), place, why });
     };
-    if case.kind.0 == Domain::Torque && case.loaded.iter().all(Option::is_none) {
+    let is_free = verdict.now.fit.links == Links::Free;
+    if case.kind.0 == Domain::Torque && is_free && case.loaded.iter().all(Option::is_none) {
         tell(
             "torque_scale",
             Spot::at(Place::Arm).to_string(),
-            "with free masses it is not distinguishable from a scale of all inertias and frictions; only a \
-             payload of known mass determines it",
+            "one scale of all torques together: with free masses it is not distinguishable from a scale of all \
+             inertias and frictions; only a payload of known mass determines it",
         );
     }
     let loads = Loads::default();
