@@ -84,11 +84,12 @@ impl Ops {
 }
 
 /// The kind of a joint.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Motion {
     /// `q` adds to theta.
+    #[default]
     Revolute,
     /// `q` adds to d.
     Prismatic,

@@ -53,6 +53,11 @@ impl Extra {
 }
 
 impl Readings {
+    /// The arguments beside readings as they are handed on: `, sides, warming`.
+    pub fn handed_on(&self) -> String {
+        self.extras.iter().map(|extra| format!(", {}", extra.name())).collect()
+    }
+
     pub fn of(robot: &Robot) -> Readings {
         let readings = derive::Readings::of(robot);
         let g = &readings.graph;
