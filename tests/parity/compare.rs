@@ -5,7 +5,9 @@ pub use stiffarm::kernels::parity::scale::{
     CANCELLED, CANCELLED_SINGLE as CANCELLED_F32, deviation as relative, terms,
 };
 use stiffarm::kernels::{Kernels, Output, Scalar};
+use stiffarm_codegen::robot::Robot;
 pub use stiffarm_draws::Draws;
+use stiffarm_robots::ARMS;
 
 /// Numbers for the parameters of a symbolic arm: as its struct, by name, and for any scalar.
 macro_rules! parameters {
@@ -24,6 +26,39 @@ macro_rules! parameters {
             $($ty)::+ { $($name: cast($value)),* }
         }
     };
+}
+
+/// The table of a robot file in numbers, and what the textbook makes of it.
+pub fn read(text: &str, name: &str) -> (Robot, Arm) {
+    let (robot, warnings) = Robot::from_toml(text, name).expect("the file is valid");
+    assert!(warnings.is_empty(), "{warnings:?}");
+    let arm = stiffarm_gap::robot::arm(&robot).expect("every parameter has a number");
+    (robot, arm)
+}
+
+/// The same of an arm of the collection.
+pub fn known(id: &str) -> (Robot, Arm) {
+    read(stiffarm_robots::arm(id).expect("in the collection").toml, id)
+}
+
+/// The same of every arm of the collection.
+pub fn collection() -> impl Iterator<Item = (&'static stiffarm_robots::Arm, Robot, Arm)> {
+    ARMS.iter().map(|entry| {
+        let (robot, arm) = known(entry.id);
+        (entry, robot, arm)
+    })
+}
+
+/// Compares every output with the textbook, at so many states.
+pub fn agrees(name: &str, arm: &Arm, kernels: &dyn Kernels<f64>, (states, seed): (usize, u64)) {
+    let mut draws = Draws::new(seed);
+    for _ in 0..states {
+        let (q, wrench) = (draws.state(arm), draws.wrench(arm));
+        for &output in kernels.outputs() {
+            let worst = deviation(kernels, arm, output, (&q, &wrench), (CANCELLED, |x| x));
+            assert!(worst <= 1e-12, "{name} {}: {worst:e} at {q:?} {wrench:?}", output.name());
+        }
+    }
 }
 
 /// What an arm is asked.
