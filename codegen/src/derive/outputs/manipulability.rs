@@ -79,18 +79,12 @@ fn squares(chain: &mut Chain, columns: &[Vec<Expr>]) -> Expr {
     let rows: Vec<Vec<Expr>> =
         (0..6).map(|r| columns.iter().map(|column| column[r]).collect()).collect();
     let minors = if n < 6 { chain.g.minors(&rows) } else { chain.g.minors(columns) };
-    minors.into_iter().fold(Expr::ZERO, |sum, minor| {
-        let square = chain.g.mul(minor, minor);
-        chain.g.add(sum, square)
-    })
+    chain.g.products(minors.into_iter().map(|minor| (minor, minor)))
 }
 
 fn dot(chain: &mut Chain, columns: &[Vec<Expr>], (r, c): (usize, usize)) -> Expr {
     let (r, c) = (r.min(c), r.max(c));
-    columns.iter().fold(Expr::ZERO, |sum, column| {
-        let part = chain.g.mul(column[r], column[c]);
-        chain.g.add(sum, part)
-    })
+    chain.g.products(columns.iter().map(|column| (column[r], column[c])))
 }
 
 fn six((v, w): crate::expr::Twist) -> Vec<Expr> {
