@@ -104,8 +104,7 @@ impl Readings {
 }
 
 fn symbol(g: &Graph, node: usize) -> Option<Term> {
-    let Node::Symbol(s) = g.nodes()[node] else { return None };
-    match g.symbol_of(s) {
+    match g.symbol_at(node)? {
         Symbol::Joint(joint) => Some(Term::Entry("q", vec![*joint])),
         Symbol::Side(joint) => Some(Term::Entry(Extra::Sides.name(), vec![*joint])),
         Symbol::Warming => Some(Term::local(Extra::Warming.name())),
