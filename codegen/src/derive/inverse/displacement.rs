@@ -112,6 +112,6 @@ impl<'g> Displacement<'g> {
 
 /// Axes and origin of a frame of the table.
 pub(super) fn constant<'g>(sheet: &'g Sheet, frame: &Frame) -> ([Vector<'g>; 3], Vector<'g>) {
-    let axes = frame_rotation(frame).map(|column| column.map(|n| sheet.number(n)));
+    let axes = frame_rotation(frame).map(|column| column.map(|n| sheet.exact(n)));
     (axes, frame.translation.each_ref().map(|length| sheet.value(length)))
 }

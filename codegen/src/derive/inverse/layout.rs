@@ -135,7 +135,7 @@ impl<'g> Layout<'g> {
             // Prismatic joints have no length in the table.
             size = size + dot(target.origin, target.origin);
         }
-        let tiny = sheet.number(Number::rounded(NOTHING * NOTHING)) * size;
+        let tiny = sheet.exact(Number::rounded(NOTHING * NOTHING)) * size;
         let reversed = form.reversed;
         Layout { a, alpha, d, near, offsets, target, tip, lever, tiny, size, reversed, given }
     }
@@ -198,7 +198,7 @@ impl<'g> Layout<'g> {
             turned = turned + dot(by, by);
             off = plus(off, times(self.lever[k], by));
         }
-        let turned = turned.number(Number::ratio(1, 2)) * turned;
+        let turned = turned.exact(Number::ratio(1, 2)) * turned;
         (dot(off, off).sqrt(), turned.sqrt())
     }
 

@@ -47,7 +47,7 @@ use term::{Sheet, Term};
 use super::own::{Held, Own, OwnInput, Quantity, Size};
 use super::program::{Block, Program};
 use super::readings::Readings;
-use crate::expr::Expr;
+use crate::expr::{Expr, Graph};
 use crate::robot::{CLOSED_FORM, ClosedForm, Family, INVERSE_KINEMATICS, Motion, Robot};
 
 /// Where the joints of one branch stand, and how far its pose is from what was asked: m, and the length between unit vectors.
@@ -75,7 +75,7 @@ fn quantity(name: &str, unit: &str, sentence: String, size: Size) -> Quantity {
 /// [nearest table](Robot::nearest_closed_form): it is then only where the arm's own inverse begins, and called so.
 pub fn inverse(robot: &Robot, form: ClosedForm) -> Program {
     let exact = robot.is_as_its_table() && robot.closed_form().is_ok();
-    let sheet = Sheet::new();
+    let sheet = Sheet::new(Graph::new());
     let arm = &Layout::new(&sheet, &robot.nearest(form), form);
     let branches: Vec<Branch> = match form.family {
         Family::Wrist { position, behind } => {
@@ -108,7 +108,7 @@ pub fn inverse(robot: &Robot, form: ClosedForm) -> Program {
     let blocks =
         results.map(|(quantity, entries)| Block { held: Held::Own(quantity), entries }).to_vec();
     Program {
-        graph: sheet.into_graph(),
+        graph: sheet.graph.into_inner(),
         blocks,
         solves: Vec::new(),
         cut: 0,

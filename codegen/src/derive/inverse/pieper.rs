@@ -26,7 +26,7 @@ pub(super) fn general<'g>(arm: &Layout<'g>, point: &Point<'g>) -> [[Pair<'g>; 3]
     let turn = {
         let [cc, cs, ss] = Equation::new(arm, point).squares().map(Term::constant);
         let angle = 0.5 * libm::atan2(2.0 * cs, cc - ss);
-        [libm::cos(angle), libm::sin(angle)].map(|x| arm.tiny.number(Number::cosine(x)))
+        [libm::cos(angle), libm::sin(angle)].map(|x| arm.tiny.exact(Number::cosine(x)))
     };
     let point = &Point { c: turned(turn, point.c), ..*point };
     let equation = Equation::new(arm, point);
@@ -124,7 +124,7 @@ impl<'g> Conic<'g> {
         let Conic { d, e, f } = *self;
         let m = self.degenerate();
         // (1 + m) (c + d/2(1 + m))² = −m (s + e/2m)²: lines with normals (α, ∓β) of length 1.
-        let half = d.number(Number::ratio(1, 2));
+        let half = d.exact(Number::ratio(1, 2));
         let [alpha, beta] = [d.one() + m, -m].map(|square| square.positive_part().sqrt());
         let apart = |by: Term<'g>, root: Term<'g>| half * by * root.recip();
         // That of the smaller of both follows from the larger's: its own is zero by zero where a conic is symmetric.
@@ -159,7 +159,7 @@ impl<'g> Conic<'g> {
     /// It is the root on the one side of the inflection on which there is no other, by Laguerre's steps from the end of that
     /// side, which do not leave the interval.
     fn degenerate(&self) -> Term<'g> {
-        let number = |n: Number| self.f.number(n);
+        let number = |n: Number| self.f.exact(n);
         let (zero, one) = (self.f.zero(), self.f.one());
         let [dd, ee] = [self.d, self.e].map(|x| x * x);
         let four = number(Number::integer(4));
@@ -200,7 +200,7 @@ impl<'g> Conic<'g> {
     /// A few of Newton's steps from an angle, shorter where the slope is none.
     fn polished(&self, mut angle: Pair<'g>) -> Pair<'g> {
         let Conic { d, e, f } = *self;
-        let [two, four] = [2, 4].map(|n| f.number(Number::integer(n)));
+        let [two, four] = [2, 4].map(|n| f.exact(Number::integer(n)));
         for _ in 0..POLISHED {
             let [c, s] = angle;
             let value = c * (c + d) + e * s + f;

@@ -174,7 +174,7 @@ fn second_meets_third<'g>(arm: &Layout<'g>, point: &Point<'g>) -> Vec<[Pair<'g>;
     let by = turned([-a, -(d * sine)], [rx, ry]);
     let (across, axial, own) = (square([rx, ry]), rz * rz, square([a, d]));
     let rest = inner - (across + axial + own);
-    let right = rz.number(Number::ratio(1, 2)) * rest + d * cosine * rz;
+    let right = rz.exact(Number::ratio(1, 2)) * rest + d * cosine * rz;
     let each = two_angles(by, right, Some(free_first)).map(|first| {
         let [gx, gy, gz] = arm.behind_link(0, about_z_back(first, point.r));
         solved(&along, gz - d).map(|third| {

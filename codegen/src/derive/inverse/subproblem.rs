@@ -60,7 +60,7 @@ pub(super) fn two_angles_within<'g>(by: Pair<'g>, c: Term<'g>, part: Number) -> 
 
 /// What is more than a part of something, else nothing.
 pub(super) fn above<'g>(left: Term<'g>, part: Number, of: Term<'g>) -> Term<'g> {
-    let beyond = left - left.number(part) * of;
+    let beyond = left - left.exact(part) * of;
     beyond.select(left, left.zero())
 }
 

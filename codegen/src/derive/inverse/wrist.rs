@@ -45,7 +45,7 @@ pub(super) fn two_turns<'g>(
     // Of a wrist of right angles the part across has one side or the other, however short it is.
     let right_angles = part.is_zero();
     let nothing = if right_angles { NOTHING } else { NOTHING * NOTHING };
-    let free = Free { near: arm.near[beside], tiny: x.number(Number::rounded(nothing)) };
+    let free = Free { near: arm.near[beside], tiny: x.exact(Number::rounded(nothing)) };
     [-s, s].map(|s| {
         let own = [s * far[1], part];
         let side = match (right_angles, own[0].e.is_negative()) {
@@ -106,7 +106,7 @@ pub(super) fn last_turn<'g>(arm: &Layout<'g>, [x, y, _]: [Vector<'g>; 3]) -> Pai
 
 /// A joint of which an axis may leave the angle free.
 pub(super) fn free<'g>(arm: &Layout<'g>, joint: usize) -> Free<'g> {
-    Free { near: arm.near[joint], tiny: arm.tiny.number(Number::rounded(NOTHING * NOTHING)) }
+    Free { near: arm.near[joint], tiny: arm.tiny.exact(Number::rounded(NOTHING * NOTHING)) }
 }
 
 /// A vector of the base in frame 3. Parallel axes turn as one.
