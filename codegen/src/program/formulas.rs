@@ -293,15 +293,12 @@ fn twists_at(chain: &mut Chain, point: &Point) -> Vec<Twist> {
     }
     let levers = Levers::to(chain, point.boundary, &point.offsets, point.beyond.v);
     let twist = |chain: &mut Chain, joint: usize| {
-        let (step, z) = (chain.joint_step(joint), chain.joint_axis(joint));
-        match (step < point.boundary, chain.revolute(joint)) {
-            (false, _) => ([Expr::ZERO; 3], [Expr::ZERO; 3]),
-            (true, false) => (z, [Expr::ZERO; 3]),
-            (true, true) => {
-                let lever = levers.lever(&mut chain.g, Place::Step(step), Some(z));
-                (chain.g.cross3(z, lever), z)
-            }
+        let step = chain.joint_step(joint);
+        if step >= point.boundary {
+            return Twist::default();
         }
+        let (z, turns) = (chain.joint_axis(joint), chain.revolute(joint));
+        levers.twist(&mut chain.g, Place::Step(step), z, turns)
     };
     (0..chain.dof()).map(|joint| twist(chain, joint)).collect()
 }

@@ -156,6 +156,11 @@ impl<'r> Chain<'r> {
         self.g.along3(own, world)
     }
 
+    /// A twist, as [vectors](Chain::in_base).
+    pub fn twist_in_base(&mut self, (v, w): Twist) -> Twist {
+        (self.in_base(v), self.in_base(w))
+    }
+
     /// A place told from the base, told from the world in which the base stands.
     pub fn in_world(&mut self, place: Vec3) -> Vec3 {
         let base = self.robot.base.translation.each_ref().map(|length| self.value(length));

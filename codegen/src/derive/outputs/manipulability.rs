@@ -3,7 +3,7 @@
 use stiffarm_kernels::Output;
 
 use super::{Derivation, Derived};
-use crate::derive::chain::{Chain, seen_from, twists};
+use crate::derive::chain::{Chain, flatten, seen_from, twists};
 use crate::expr::{Expr, Symbol};
 use crate::number::Number;
 
@@ -54,11 +54,15 @@ fn square(chain: &mut Chain) -> Expr {
     let n = chain.dof();
     if n < 6 {
         let twists = twists(chain);
-        return squares(chain, &twists.into_iter().map(six).collect::<Vec<_>>());
+        return squares(
+            chain,
+            &twists.into_iter().map(|twist| flatten([twist])).collect::<Vec<_>>(),
+        );
     }
     let mut best = None;
     for row in 0..=n {
-        let columns: Vec<Vec<Expr>> = seen_from(chain, row).into_iter().map(six).collect();
+        let columns: Vec<Vec<Expr>> =
+            seen_from(chain, row).into_iter().map(|twist| flatten([twist])).collect();
         let square = squares(chain, &columns);
         let cost = chain.g.count(&[square]).cost();
         if best.is_none_or(|(least, _)| cost < least) {
@@ -85,8 +89,4 @@ fn squares(chain: &mut Chain, columns: &[Vec<Expr>]) -> Expr {
 fn dot(chain: &mut Chain, columns: &[Vec<Expr>], (r, c): (usize, usize)) -> Expr {
     let (r, c) = (r.min(c), r.max(c));
     chain.g.products(columns.iter().map(|column| (column[r], column[c])))
-}
-
-fn six((v, w): crate::expr::Twist) -> Vec<Expr> {
-    v.into_iter().chain(w).collect()
 }
