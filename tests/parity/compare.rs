@@ -100,6 +100,19 @@ impl ForArm for Draws {
     }
 }
 
+/// An output of an arm that bears its load, as one block.
+pub fn block<S: Scalar>(
+    kernels: &(impl Kernels<S> + ?Sized),
+    output: Output,
+    state: &[S],
+    wrench: &[S; 6],
+) -> Vec<S> {
+    let (rows, columns) = output.shape(kernels.dof());
+    let mut out = vec![S::lit(0.0); rows * columns];
+    kernels.evaluate(output, state, wrench, &mut out).expect("the arm is stable");
+    out
+}
+
 /// The largest deviation of an output from the textbook, relative to the output's scale.
 pub fn deviation<S: Scalar>(
     kernels: &dyn Kernels<S>,
@@ -110,10 +123,8 @@ pub fn deviation<S: Scalar>(
 ) -> f64 {
     let q = &state[..output.state(arm.dof())];
     let expected = arm.evaluate(output, q, wrench).expect("the textbook finds the arm stable");
-    let (rows, columns) = output.shape(arm.dof());
-    let mut got = vec![S::lit(0.0); rows * columns];
     let cast: Vec<S> = q.iter().map(|x| S::lit(*x)).collect();
-    kernels.evaluate(output, &cast, &wrench.map(S::lit), &mut got).expect("the kernel agrees");
+    let got = block(kernels, output, &cast, &wrench.map(S::lit));
     let got: Vec<f64> = got.into_iter().map(back).collect();
     relative(&got, &expected, cancelled * terms(arm, output, q, wrench))
 }
