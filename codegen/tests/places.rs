@@ -23,7 +23,9 @@ fn sources() -> Vec<Source> {
             let path = entry.expect("a file of sources").path();
             if path.is_dir() && !path.ends_with("tests") && !path.ends_with("parity") {
                 folders.push(path);
-            } else if path.extension().is_some_and(|ending| ending == "rs") {
+            } else if path.extension().is_some_and(|ending| ending == "rs")
+                && !path.ends_with("tests.rs")
+            {
                 let text = fs::read_to_string(&path).expect("a source is text");
                 let text = text.split("#[cfg(test)]\nmod tests {").next().unwrap_or_default();
                 let code = text.lines().filter(|line| !line.trim_start().starts_with("//"));

@@ -84,22 +84,24 @@ impl Ops {
 }
 
 /// The kind of a joint.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Motion {
     /// `q` adds to theta.
+    #[default]
     Revolute,
     /// `q` adds to d.
     Prismatic,
 }
 
 /// How one row of the table becomes a transform.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Convention {
     /// `Rz(theta) Tz(d) Tx(a) Rx(alpha) Ry(beta)`: Denavit and Hartenberg as in Paul and in Lin et al.
+    #[default]
     Standard,
     /// `Rx(alpha) Ry(beta) Tx(a) Rz(theta) Tz(d)`: Khalil and Craig, as in Dumas et al.
     Modified,

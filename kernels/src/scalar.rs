@@ -43,112 +43,76 @@ pub trait Scalar:
     fn is_positive(self) -> bool;
 }
 
-/// Sines and cosines by the crate's own polynomial, without a branch: at most 1.5 ulp off for
-/// |angle| ≤ 1e4 rad and exact at 0. To 1e9 rad the error grows like the spacing of the angles; beyond,
-/// and where an angle is not finite, both are NaN. With the feature `libm` they are libm's.
-impl Scalar for f64 {
-    #[inline(always)]
-    fn lit(x: f64) -> Self {
-        x
-    }
-    #[inline(always)]
-    fn recip(self) -> Self {
-        1.0 / self
-    }
-    #[inline]
-    fn sqrt(self) -> Self {
-        libm::sqrt(self)
-    }
-    #[inline(always)]
-    fn sign(self) -> Self {
-        f64::from(self > 0.0) - f64::from(self < 0.0)
-    }
-    #[inline(always)]
-    fn select(self, positive: Self, otherwise: Self) -> Self {
-        if self > 0.0 { positive } else { otherwise }
-    }
-    #[inline(always)]
-    fn atan2(self, x: Self) -> Self {
-        atan2(self, x, arctan::DOUBLE)
-    }
-    #[cfg(all(feature = "fma", any(target_feature = "fma", target_arch = "aarch64")))]
-    #[inline(always)]
-    fn mul_add(self, a: Self, b: Self) -> Self {
-        f64::mul_add(self, a, b)
-    }
-    #[cfg(feature = "libm")]
-    fn sin_cos_all<const M: usize>(angles: [Self; M]) -> ([Self; M], [Self; M]) {
-        (angles.map(libm::sin), angles.map(libm::cos))
-    }
-    #[cfg(all(feature = "lanes", not(feature = "libm")))]
-    #[inline(always)]
-    fn sin_cos_all<const M: usize>(angles: [Self; M]) -> ([Self; M], [Self; M]) {
-        crate::lanes::pose::f64(angles)
-    }
-    #[cfg(not(any(feature = "lanes", feature = "libm")))]
-    #[inline(always)]
-    fn sin_cos_all<const M: usize>(angles: [Self; M]) -> ([Self; M], [Self; M]) {
-        each(angles, crate::sin_cos::double::sin_cos)
-    }
-    #[inline(always)]
-    fn is_positive(self) -> bool {
-        self > 0.0
-    }
+/// A precision of the machine as a scalar: its constants of the arctangent, the crate's own sine and
+/// cosine, and libm's functions.
+macro_rules! scalar {
+    ($(#[$doc:meta])* $own:ident, $arctan:ident, $sin_cos:ident, $sqrt:ident, $sin:ident, $cos:ident) => {
+        $(#[$doc])*
+        impl Scalar for $own {
+            #[inline(always)]
+            fn lit(x: f64) -> Self {
+                x as $own
+            }
+            #[inline(always)]
+            fn recip(self) -> Self {
+                1.0 / self
+            }
+            #[inline]
+            fn sqrt(self) -> Self {
+                libm::$sqrt(self)
+            }
+            #[inline(always)]
+            fn sign(self) -> Self {
+                $own::from(self > 0.0) - $own::from(self < 0.0)
+            }
+            #[inline(always)]
+            fn select(self, positive: Self, otherwise: Self) -> Self {
+                if self > 0.0 { positive } else { otherwise }
+            }
+            #[inline(always)]
+            fn atan2(self, x: Self) -> Self {
+                atan2(self, x, arctan::$arctan)
+            }
+            #[cfg(all(feature = "fma", any(target_feature = "fma", target_arch = "aarch64")))]
+            #[inline(always)]
+            fn mul_add(self, a: Self, b: Self) -> Self {
+                $own::mul_add(self, a, b)
+            }
+            #[cfg(feature = "libm")]
+            fn sin_cos_all<const M: usize>(angles: [Self; M]) -> ([Self; M], [Self; M]) {
+                (angles.map(libm::$sin), angles.map(libm::$cos))
+            }
+            #[cfg(all(feature = "lanes", not(feature = "libm")))]
+            #[inline(always)]
+            fn sin_cos_all<const M: usize>(angles: [Self; M]) -> ([Self; M], [Self; M]) {
+                crate::lanes::pose::$own(angles)
+            }
+            #[cfg(not(any(feature = "lanes", feature = "libm")))]
+            #[inline(always)]
+            fn sin_cos_all<const M: usize>(angles: [Self; M]) -> ([Self; M], [Self; M]) {
+                each(angles, crate::sin_cos::$sin_cos::sin_cos)
+            }
+            #[inline(always)]
+            fn is_positive(self) -> bool {
+                self > 0.0
+            }
+        }
+    };
 }
 
-/// Sines and cosines by the crate's own polynomial in single precision alone, without a branch: at most
-/// 1e-7 off for |angle| ≤ 100 rad and exact at 0. To 1e5 rad the error grows like the spacing of the
-/// angles; beyond, and where an angle is not finite, both are NaN. With the feature `libm` they are
-/// libm's.
-impl Scalar for f32 {
-    #[inline(always)]
-    fn lit(x: f64) -> Self {
-        x as f32
-    }
-    #[inline(always)]
-    fn recip(self) -> Self {
-        1.0 / self
-    }
-    #[inline]
-    fn sqrt(self) -> Self {
-        libm::sqrtf(self)
-    }
-    #[inline(always)]
-    fn sign(self) -> Self {
-        f32::from(self > 0.0) - f32::from(self < 0.0)
-    }
-    #[inline(always)]
-    fn select(self, positive: Self, otherwise: Self) -> Self {
-        if self > 0.0 { positive } else { otherwise }
-    }
-    #[inline(always)]
-    fn atan2(self, x: Self) -> Self {
-        atan2(self, x, arctan::SINGLE)
-    }
-    #[cfg(all(feature = "fma", any(target_feature = "fma", target_arch = "aarch64")))]
-    #[inline(always)]
-    fn mul_add(self, a: Self, b: Self) -> Self {
-        f32::mul_add(self, a, b)
-    }
-    #[cfg(feature = "libm")]
-    fn sin_cos_all<const M: usize>(angles: [Self; M]) -> ([Self; M], [Self; M]) {
-        (angles.map(libm::sinf), angles.map(libm::cosf))
-    }
-    #[cfg(all(feature = "lanes", not(feature = "libm")))]
-    #[inline(always)]
-    fn sin_cos_all<const M: usize>(angles: [Self; M]) -> ([Self; M], [Self; M]) {
-        crate::lanes::pose::f32(angles)
-    }
-    #[cfg(not(any(feature = "lanes", feature = "libm")))]
-    #[inline(always)]
-    fn sin_cos_all<const M: usize>(angles: [Self; M]) -> ([Self; M], [Self; M]) {
-        each(angles, crate::sin_cos::single::sin_cos)
-    }
-    #[inline(always)]
-    fn is_positive(self) -> bool {
-        self > 0.0
-    }
-}
+scalar!(
+    /// Sines and cosines by the crate's own polynomial, without a branch: at most 1.5 ulp off for
+    /// |angle| ≤ 1e4 rad and exact at 0. To 1e9 rad the error grows like the spacing of the angles; beyond,
+    /// and where an angle is not finite, both are NaN. With the feature `libm` they are libm's.
+    f64, DOUBLE, double, sqrt, sin, cos
+);
+scalar!(
+    /// Sines and cosines by the crate's own polynomial in single precision alone, without a branch: at most
+    /// 1e-7 off for |angle| ≤ 100 rad and exact at 0. To 1e5 rad the error grows like the spacing of the
+    /// angles; beyond, and where an angle is not finite, both are NaN. With the feature `libm` they are
+    /// libm's.
+    f32, SINGLE, single, sqrtf, sinf, cosf
+);
 
 /// Both functions of one angle after the other.
 #[allow(dead_code, reason = "which of the ways to a sine needs it depends on features and target")]

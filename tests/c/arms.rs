@@ -1,7 +1,7 @@
 //! The arms whose bits are compared, with the kernels that the macro made of them.
 
 use stiffarm::kernels::{DhRow, Error, Kernels, Output, Pose, Scalar};
-use stiffarm_codegen::emit::{COptions, Precision, Sines, c};
+use stiffarm_codegen::emit::{Precision, Sines};
 use stiffarm_codegen::robot::Robot;
 use stiffarm_robots::ARMS;
 
@@ -162,10 +162,7 @@ pub fn build<S: Scalar>(
 ) {
     let (robot, _) = Robot::for_kernels(arm.toml, arm.id).expect("a valid file");
     let id = arm.id;
-    let options = COptions { name: id.to_owned(), precision, sines: Sines::Polynomial };
-    let files = c(&robot, &options).expect("numbers only");
-    folder.write(&format!("{id}.h"), &files.header);
-    folder.write(&format!("{id}.c"), &files.source);
+    folder.write_c(&robot, id, (precision, Sines::Polynomial));
     folder.write("main.c", &program(id, &robot, precision));
     let source = format!("{id}.c");
     compile(compiler, folder, &[flags, &["main.c", &source, "-o", id, "-lm"]].concat());

@@ -3,7 +3,7 @@
 use core::fmt::{Debug, LowerHex};
 
 use stiffarm::kernels::{Motion, Scalar};
-use stiffarm_codegen::emit::{COptions, Precision, Sines, c};
+use stiffarm_codegen::emit::{Precision, Sines};
 use stiffarm_draws::Draws;
 
 use crate::arms::{Arm, build, doubles, robot, singles};
@@ -176,13 +176,8 @@ fn the_widest_registers_are_taken_on_amds_cores_alone(compiler: &str) {
     if cfg!(not(target_arch = "x86_64")) {
         return;
     }
-    let robot = robot("ur10");
-    let options =
-        COptions { name: "ur10".to_owned(), precision: Precision::F64, sines: Sines::Polynomial };
-    let files = c(&robot, &options).expect("numbers only");
     let folder = Folder::new(&format!("{compiler}-registers"));
-    folder.write("ur10.h", &files.header);
-    folder.write("ur10.c", &files.source);
+    folder.write_c(&robot("ur10"), "ur10", (Precision::F64, Sines::Polynomial));
     for (flags, wide) in [(&WIDEST[..], true), (&["-O2", "-march=skylake-avx512"], false)] {
         compile(compiler, &folder, &[flags, &["-S", "ur10.c"]].concat());
         let text = std::fs::read_to_string(folder.path().join("ur10.s")).expect("assembler");

@@ -4,6 +4,9 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
+use stiffarm_codegen::emit::{COptions, Precision, Sines, c};
+use stiffarm_codegen::robot::Robot;
+
 /// Every warning is an error.
 const STRICT: [&str; 9] = [
     "-std=c99",
@@ -54,6 +57,14 @@ impl Folder {
 
     pub fn write(&self, name: &str, text: &str) {
         std::fs::write(self.0.join(name), text).expect("written");
+    }
+
+    /// The C of a robot of numbers, as `name.h` and `name.c`.
+    pub fn write_c(&self, robot: &Robot, name: &str, (precision, sines): (Precision, Sines)) {
+        let options = COptions { name: name.to_owned(), precision, sines };
+        let files = c(robot, &options).expect("numbers only");
+        self.write(&format!("{name}.h"), &files.header);
+        self.write(&format!("{name}.c"), &files.source);
     }
 }
 

@@ -2,7 +2,7 @@
 
 use stiffarm::kernels::{Inverse, Pose, SetPoints, Solutions, has};
 use stiffarm::robot;
-use stiffarm_codegen::emit::{COptions, Precision, Sines, c};
+use stiffarm_codegen::emit::{Precision, Sines};
 use stiffarm_codegen::robot::{Robot, Wanted};
 use stiffarm_draws::Draws;
 
@@ -29,25 +29,20 @@ robot! { mod general from "tests/data/general.toml"; outputs: pose, inverse_kine
 mod loaded {
     use super::robot;
 
-    robot! {
-        pub mod lin from "robots/arms/lin_elbow.toml";
-        outputs: pose, jacobian, deflection_with_gravity, inverse_kinematics;
+    macro_rules! arms {
+        ($($name:ident $file:literal)*) => {$(
+            robot! {
+                pub mod $name from $file;
+                outputs: pose, jacobian, deflection_with_gravity, inverse_kinematics;
+            }
+        )*};
     }
-    robot! {
-        pub mod kr240 from "robots/arms/kuka_kr240.toml";
-        outputs: pose, jacobian, deflection_with_gravity, inverse_kinematics;
-    }
-    robot! {
-        pub mod panda from "robots/arms/panda.toml";
-        outputs: pose, jacobian, deflection_with_gravity, inverse_kinematics;
-    }
-    robot! {
-        pub mod plane from "robots/arms/bicchi_3r.toml";
-        outputs: pose, jacobian, deflection_with_gravity, inverse_kinematics;
-    }
-    robot! {
-        pub mod calibrated from "tests/data/calibrated_kuka.toml";
-        outputs: pose, jacobian, deflection_with_gravity, inverse_kinematics;
+    arms! {
+        lin "robots/arms/lin_elbow.toml"
+        kr240 "robots/arms/kuka_kr240.toml"
+        panda "robots/arms/panda.toml"
+        plane "robots/arms/bicchi_3r.toml"
+        calibrated "tests/data/calibrated_kuka.toml"
     }
 }
 
@@ -130,10 +125,7 @@ fn compiled(compiler: &str, id: &str, outputs: &[&str]) -> Folder {
     let given = if robot.beyond.takes_sides() { ", sides" } else { "" };
     let folder = Folder::new(&format!("{function}-{compiler}-{}", id.replace('/', "-")));
     for precision in [Precision::F32, Precision::F64] {
-        let options = COptions { name: "arm".to_owned(), precision, sines: Sines::Polynomial };
-        let files = c(&robot, &options).expect("numbers only");
-        folder.write("arm.h", &files.header);
-        folder.write("arm.c", &files.source);
+        folder.write_c(&robot, "arm", (precision, Sines::Polynomial));
         compile(compiler, &folder, &["-O2", "-c", "arm.c"]);
     }
     let form = robot.inverse_kinematics.expect("it was asked for");

@@ -38,18 +38,9 @@ fn every_form_of_every_arm_compiles_without_a_warning() {
     }
 }
 
-fn compiles_without_a_warning(
-    compiler: &str,
-    folder: &Folder,
-    id: &str,
-    (precision, sines): (Precision, Sines),
-) {
-    let options = COptions { name: id.to_owned(), precision, sines };
-    let files = c(&robot(id), &options).expect("numbers only");
-    folder.write(&format!("{id}.h"), &files.header);
-    let source = format!("{id}.c");
-    folder.write(&source, &files.source);
-    compile(compiler, folder, &["-O1", "-Wmissing-prototypes", "-c", &source]);
+fn compiles_without_a_warning(compiler: &str, folder: &Folder, id: &str, form: (Precision, Sines)) {
+    folder.write_c(&robot(id), id, form);
+    compile(compiler, folder, &["-O1", "-Wmissing-prototypes", "-c", &format!("{id}.c")]);
 }
 
 /// A warning is an error: the same call refuses a text that has one.
@@ -62,14 +53,11 @@ fn a_warning_is_found(compiler: &str) {
 
 /// A source of one table with the header of another is refused by the compiler itself.
 fn a_pair_that_does_not_belong_together_is_refused(compiler: &str) {
-    let files = |id: &str| {
-        let options =
-            COptions { name: "arm".to_owned(), precision: Precision::F64, sines: Sines::Given };
-        c(&robot(id), &options).expect("numbers only")
-    };
     let folder = Folder::new(&format!("pair-{compiler}"));
-    folder.write("arm.h", &files("ur5").header);
-    folder.write("arm.c", &files("ur10").source);
+    folder.write_c(&robot("ur10"), "arm", (Precision::F64, Sines::Given));
+    let options =
+        COptions { name: "arm".to_owned(), precision: Precision::F64, sines: Sines::Given };
+    folder.write("arm.h", &c(&robot("ur5"), &options).expect("numbers only").header);
     let said = tried(compiler, &folder, &["-c", "arm.c"]).expect_err("two tables");
     assert!(said.contains("different tables"), "{said}");
 }
@@ -79,10 +67,7 @@ fn the_library_s_sines_give_the_same_pose(compiler: &str) {
     let folder = Folder::new(&format!("math-{compiler}"));
     let robot = robot("ur5");
     for (name, sines) in [("own", Sines::Polynomial), ("library", Sines::Math)] {
-        let options = COptions { name: name.to_owned(), precision: Precision::F64, sines };
-        let files = c(&robot, &options).expect("numbers only");
-        folder.write(&format!("{name}.h"), &files.header);
-        folder.write(&format!("{name}.c"), &files.source);
+        folder.write_c(&robot, name, (Precision::F64, sines));
     }
     folder.write(
         "main.c",

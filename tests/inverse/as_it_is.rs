@@ -144,12 +144,6 @@ impl<const N: usize> Arm<N> {
     }
 }
 
-fn pose(at: &Isometry3<f64>) -> Pose<f64> {
-    let rotation = at.rotation.to_rotation_matrix();
-    let column = |k: usize| core::array::from_fn(|row| rotation[(row, k)]);
-    Pose { rotation: [column(0), column(1), column(2)], position: at.translation.vector.into() }
-}
-
 /// Distance of two poses, and twice the sine of half the angle between them.
 fn apart(a: &Isometry3<f64>, b: &Isometry3<f64>) -> [f64; 2] {
     let by = a.rotation.inverse() * b.rotation;
@@ -170,11 +164,11 @@ fn check<const N: usize>(poses: usize) {
         for k in 0..poses {
             let (q, wrench) = (draws.array(-3.1, 3.1), arm.load(&mut draws));
             let target = arm.stands(&q, &wrench);
-            let begin = arm.kernels.closed_form(&pose(&target), &q);
+            let begin = arm.kernels.closed_form(&target.into(), &q);
             let near = |b: &Solution<f64, N>| b.distance <= 2e-3 * arm.size && b.tilt <= 4e-3;
             for branch in begin.into_iter().filter(near) {
                 let follow = |most: usize| {
-                    let found = arm.kernels.follow(branch.q, &pose(&target), (Some(&wrench), most));
+                    let found = arm.kernels.follow(branch.q, &target.into(), (Some(&wrench), most));
                     found.expect("the arm bears the load")
                 };
                 let (_, missed) = follow(3);
@@ -242,7 +236,7 @@ fn compiled<S: Scalar + PartialOrd + Into<f64>>(
         }
         let wrench = arm.load(&mut draws);
         let target = arm.stands(&q, &wrench);
-        let Pose { rotation, position } = pose(&target);
+        let Pose { rotation, position } = Pose::from(target);
         let asked = Pose {
             rotation: rotation.map(|axis| axis.map(S::lit)),
             position: position.map(S::lit),

@@ -5,10 +5,8 @@ use num_dual::Dual64;
 use stiffarm::kernels::parity::{self, Comparison, Subject};
 use stiffarm::kernels::{Kernels, Output, Scalar};
 use stiffarm_codegen::derive::{Program, derive};
-use stiffarm_codegen::robot::Robot;
-use stiffarm_robots::ARMS;
 
-use crate::compare::Draws;
+use crate::compare::{Draws, collection, read};
 
 stiffarm::robot! {
     /// Springs in all joints, a spherical wrist.
@@ -42,8 +40,7 @@ stiffarm::robot! {
 fn check<R: Kernels<f64> + Kernels<f32> + Sync>(robot: &R, file: &str) {
     let path = format!("{}/{file}", env!("CARGO_MANIFEST_DIR"));
     let text = std::fs::read_to_string(&path).expect("the file is here");
-    let (table, _) = Robot::from_toml(&text, file).expect("the file is valid");
-    let arm = stiffarm_gap::robot::arm(&table).expect("every parameter has a number");
+    let (_, arm) = read(&text, file);
     let double = parity::compiled(robot, |x: f64| x);
     let single = parity::compiled(robot, |x: f32| f64::from(x));
     let outputs = Kernels::<f64>::outputs(robot);
@@ -97,9 +94,7 @@ fn inverse_dynamics_has_these_derivatives() {
 
 /// Of every arm of the collection, as the graph tells them.
 fn every_arm(states: usize) {
-    for entry in ARMS {
-        let (robot, _) = Robot::from_toml(entry.toml, entry.id).expect("the file is valid");
-        let arm = stiffarm_gap::robot::arm(&robot).expect("every parameter has a number");
+    for (entry, robot, arm) in collection() {
         let moves = robot.joints.iter().any(|joint| joint.inertia.is_some());
         let asked = |output: &Output| output.is_on_request() && (moves || !output.is_of_motion());
         let outputs: Vec<Output> = Output::EACH.into_iter().filter(asked).collect();

@@ -5,7 +5,9 @@ pub use stiffarm::kernels::parity::scale::{
     CANCELLED, CANCELLED_SINGLE as CANCELLED_F32, deviation as relative, terms,
 };
 use stiffarm::kernels::{Kernels, Output, Scalar};
+use stiffarm_codegen::robot::Robot;
 pub use stiffarm_draws::Draws;
+use stiffarm_robots::ARMS;
 
 /// Numbers for the parameters of a symbolic arm: as its struct, by name, and for any scalar.
 macro_rules! parameters {
@@ -24,6 +26,39 @@ macro_rules! parameters {
             $($ty)::+ { $($name: cast($value)),* }
         }
     };
+}
+
+/// The table of a robot file in numbers, and what the textbook makes of it.
+pub fn read(text: &str, name: &str) -> (Robot, Arm) {
+    let (robot, warnings) = Robot::from_toml(text, name).expect("the file is valid");
+    assert!(warnings.is_empty(), "{warnings:?}");
+    let arm = stiffarm_gap::robot::arm(&robot).expect("every parameter has a number");
+    (robot, arm)
+}
+
+/// The same of an arm of the collection.
+pub fn known(id: &str) -> (Robot, Arm) {
+    read(stiffarm_robots::arm(id).expect("in the collection").toml, id)
+}
+
+/// The same of every arm of the collection.
+pub fn collection() -> impl Iterator<Item = (&'static stiffarm_robots::Arm, Robot, Arm)> {
+    ARMS.iter().map(|entry| {
+        let (robot, arm) = known(entry.id);
+        (entry, robot, arm)
+    })
+}
+
+/// Compares every output with the textbook, at so many states.
+pub fn agrees(name: &str, arm: &Arm, kernels: &dyn Kernels<f64>, (states, seed): (usize, u64)) {
+    let mut draws = Draws::new(seed);
+    for _ in 0..states {
+        let (q, wrench) = (draws.state(arm), draws.wrench(arm));
+        for &output in kernels.outputs() {
+            let worst = deviation(kernels, arm, output, (&q, &wrench), (CANCELLED, |x| x));
+            assert!(worst <= 1e-12, "{name} {}: {worst:e} at {q:?} {wrench:?}", output.name());
+        }
+    }
 }
 
 /// What an arm is asked.
@@ -65,6 +100,19 @@ impl ForArm for Draws {
     }
 }
 
+/// An output of an arm that bears its load, as one block.
+pub fn block<S: Scalar>(
+    kernels: &(impl Kernels<S> + ?Sized),
+    output: Output,
+    state: &[S],
+    wrench: &[S; 6],
+) -> Vec<S> {
+    let (rows, columns) = output.shape(kernels.dof());
+    let mut out = vec![S::lit(0.0); rows * columns];
+    kernels.evaluate(output, state, wrench, &mut out).expect("the arm is stable");
+    out
+}
+
 /// The largest deviation of an output from the textbook, relative to the output's scale.
 pub fn deviation<S: Scalar>(
     kernels: &dyn Kernels<S>,
@@ -75,10 +123,8 @@ pub fn deviation<S: Scalar>(
 ) -> f64 {
     let q = &state[..output.state(arm.dof())];
     let expected = arm.evaluate(output, q, wrench).expect("the textbook finds the arm stable");
-    let (rows, columns) = output.shape(arm.dof());
-    let mut got = vec![S::lit(0.0); rows * columns];
     let cast: Vec<S> = q.iter().map(|x| S::lit(*x)).collect();
-    kernels.evaluate(output, &cast, &wrench.map(S::lit), &mut got).expect("the kernel agrees");
+    let got = block(kernels, output, &cast, &wrench.map(S::lit));
     let got: Vec<f64> = got.into_iter().map(back).collect();
     relative(&got, &expected, cancelled * terms(arm, output, q, wrench))
 }

@@ -13,7 +13,7 @@ use stiffarm_codegen::robot::Robot;
 use stiffarm_gap::effects::{Catalogue, Known};
 use stiffarm_gap::whole::{Situation, Whole};
 
-use crate::compare::{CANCELLED, CANCELLED_F32, Draws, ForArm, relative, terms};
+use crate::compare::{CANCELLED, CANCELLED_F32, Draws, ForArm, block, relative, terms};
 
 robot! { pub mod standard from "tests/data/corrected_standard.toml"; }
 robot! { pub mod modified from "tests/data/corrected_modified.toml"; }
@@ -218,13 +218,9 @@ fn by_kernels<S: Scalar + 'static>(
     drawn: &Drawn,
     back: impl Fn(S) -> f64,
 ) -> Vec<f64> {
-    let n = arm.arm.dof();
-    let (rows, columns) = output.shape(n);
-    let mut out = vec![S::lit(0.0); rows * columns];
-    let state: Vec<S> = drawn.of(output, n).iter().map(|x| S::lit(*x)).collect();
+    let state: Vec<S> = drawn.of(output, arm.arm.dof()).iter().map(|x| S::lit(*x)).collect();
     let kernels = kernels::<S>(&arm.name, &drawn.given);
-    kernels.evaluate(output, &state, &drawn.wrench.map(S::lit), &mut out).expect("a stable arm");
-    out.into_iter().map(back).collect()
+    block(&*kernels, output, &state, &drawn.wrench.map(S::lit)).into_iter().map(back).collect()
 }
 
 #[test]

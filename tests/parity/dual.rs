@@ -3,15 +3,8 @@
 use num_dual::Dual64 as Dual;
 use stiffarm::kernels::{Kernels, Output, Scalar};
 
-use crate::compare::{Draws, relative};
+use crate::compare::{Draws, block, relative};
 use crate::fixtures;
-
-fn evaluate<S: Scalar>(robot: &dyn Kernels<S>, output: Output, q: &[S], wrench: &[S; 6]) -> Vec<S> {
-    let (rows, columns) = output.shape(robot.dof());
-    let mut out = vec![S::lit(0.0); rows * columns];
-    robot.evaluate(output, q, wrench, &mut out).expect("the arm is stable");
-    out
-}
 
 /// ∂output/∂q_i as (dual numbers, central differences).
 fn slopes<R: Kernels<Dual> + Kernels<f64>>(
@@ -22,12 +15,12 @@ fn slopes<R: Kernels<Dual> + Kernels<f64>>(
 ) -> (Vec<f64>, Vec<f64>) {
     let mut dual: Vec<Dual> = q.iter().map(|x| Dual::lit(*x)).collect();
     dual[joint].eps = 1.0;
-    let by_dual = evaluate::<Dual>(robot, output, &dual, &wrench.map(Dual::lit));
+    let by_dual = block::<Dual>(robot, output, &dual, &wrench.map(Dual::lit));
     let step = 1e-5;
     let moved = |by: f64| {
         let mut q = q.to_vec();
         q[joint] += by;
-        evaluate::<f64>(robot, output, &q, wrench)
+        block::<f64>(robot, output, &q, wrench)
     };
     let differences =
         moved(step).into_iter().zip(moved(-step)).map(|(a, b)| (a - b) / (2.0 * step));
@@ -46,8 +39,8 @@ fn check<R: Kernels<Dual> + Kernels<f64>>(robot: &R, range: f64) {
     for _ in 0..200 {
         let q: Vec<f64> = (0..n).map(|_| range * draws.unit() + 0.6).collect();
         let wrench = draws.load();
-        let pose = evaluate::<f64>(robot, Output::Pose, &q, &wrench);
-        let jacobian = evaluate::<f64>(robot, Output::Jacobian, &q, &wrench);
+        let pose = block::<f64>(robot, Output::Pose, &q, &wrench);
+        let jacobian = block::<f64>(robot, Output::Jacobian, &q, &wrench);
         let pairs = [
             (Output::JointTorque, Output::ComplementaryStiffness),
             (Output::WeightTorque, Output::WeightStiffness),
@@ -59,7 +52,7 @@ fn check<R: Kernels<Dual> + Kernels<f64>>(robot: &R, range: f64) {
             assert!(relative(&twist(&dual, &pose), column, 1.0) < 1e-13);
             assert!(relative(&twist(&difference, &pose), column, 1.0) < 1e-8);
             for (value, slope) in pairs {
-                let matrix = evaluate::<f64>(robot, slope, &q, &wrench);
+                let matrix = block::<f64>(robot, slope, &q, &wrench);
                 let scale = matrix.iter().fold(0.0f64, |m, x| m.max(x.abs()));
                 let (dual, difference) = slopes(robot, value, (&q, &wrench), joint);
                 for (row, expected) in matrix[n * joint..n * joint + n].iter().enumerate() {

@@ -4,7 +4,7 @@ use stiffarm::kernels::Kernels;
 use stiffarm::robot;
 use stiffarm_codegen::robot::Robot;
 
-use crate::compare::{CANCELLED, Draws, ForArm, deviation};
+use crate::compare::agrees;
 
 robot! {
     /// Standard rows with oblique twists, masses, beams and a turned tool.
@@ -128,14 +128,7 @@ pub fn table(module: &str) -> Robot {
 
 fn check(module: &str, robot: &Robot, kernels: &dyn Kernels<f64>) {
     let arm = stiffarm_gap::robot::arm(robot).expect("every parameter has a number");
-    let mut draws = Draws::new(3);
-    for _ in 0..1000 {
-        let (q, wrench) = (draws.state(&arm), draws.wrench(&arm));
-        for &output in kernels.outputs() {
-            let worst = deviation(kernels, &arm, output, (&q, &wrench), (CANCELLED, |x| x));
-            assert!(worst <= 1e-12, "{module} {}: {worst:e} at {q:?} {wrench:?}", output.name());
-        }
-    }
+    agrees(module, &arm, kernels, (1000, 3));
 }
 
 #[test]

@@ -2,13 +2,12 @@
 
 use stiffarm::kernels::Output;
 use stiffarm::kernels::parity::{Agreement, Comparison, Subject, agreement};
-use stiffarm_codegen::robot::Robot;
+
+use crate::compare::known;
 
 /// The textbook against itself, but for what `change` does to one of its outputs.
 fn checked(output: Output, change: fn(&mut Vec<f64>)) -> Agreement {
-    let file = stiffarm_robots::arm("kuka_kr240").unwrap();
-    let (robot, _) = Robot::from_toml(file.toml, file.id).unwrap();
-    let arm = stiffarm_gap::robot::arm(&robot).unwrap();
+    let (_, arm) = known("kuka_kr240");
     let generated = |asked, q: &[f64], w: &[f64; 6]| {
         let mut block = arm.evaluate(asked, q, w)?;
         if asked == output {

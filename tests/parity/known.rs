@@ -2,52 +2,32 @@
 
 use stiffarm::kernels::parity::{self, Subject};
 use stiffarm::kernels::{Output, has};
-use stiffarm_codegen::robot::Robot;
-use stiffarm_robots::ARMS;
 
-use crate::compare::{CANCELLED, Draws, ForArm, deviation};
+use crate::compare::{Draws, agrees, collection};
 
 /// States of each arm; the claim "10,000 random joint vectors and wrenches per robot" is the ignored test's.
 const COUNT: usize = 500;
 
+fn every_arm(states: usize) {
+    collection().for_each(|(entry, _, arm)| agrees(entry.id, &arm, entry.kernels, (states, 1)));
+}
+
 #[test]
 fn double_precision_agrees_to_1e_12() {
-    ARMS.iter().for_each(|entry| check(entry, COUNT));
+    every_arm(COUNT);
 }
 
 #[test]
 #[ignore = "ten thousand states of every arm take minutes"]
 fn double_precision_agrees_to_1e_12_at_ten_thousand_states() {
-    ARMS.iter().for_each(|entry| check(entry, 10_000));
-}
-
-fn check(entry: &stiffarm_robots::Arm, count: usize) {
-    let (robot, warnings) = Robot::from_toml(entry.toml, entry.id).expect("the file is valid");
-    assert!(warnings.is_empty(), "{warnings:?}");
-    let arm = stiffarm_gap::robot::arm(&robot).expect("every parameter has a number");
-    let mut draws = Draws::new(1);
-    for _ in 0..count {
-        let (q, wrench) = (draws.state(&arm), draws.wrench(&arm));
-        for &output in entry.kernels.outputs() {
-            let load = (&q[..], &wrench);
-            let worst = deviation(entry.kernels, &arm, output, load, (CANCELLED, |x| x));
-            assert!(
-                worst <= 1e-12,
-                "{} {}: {worst:e} at {q:?} {wrench:?}",
-                entry.id,
-                output.name()
-            );
-        }
-    }
+    every_arm(10_000);
 }
 
 /// In both precisions, by the textbook, its differences and dual numbers: what `stiffarm check` does
 /// with a derived graph, with the compiled kernels.
 #[test]
 fn compiled_kernels_agree_in_every_way() {
-    for entry in ARMS {
-        let (robot, _) = Robot::from_toml(entry.toml, entry.id).expect("the file is valid");
-        let arm = stiffarm_gap::robot::arm(&robot).expect("every parameter has a number");
+    for (entry, _, arm) in collection() {
         let double = parity::compiled(entry.kernels, |x: f64| x);
         let single = parity::compiled(entry.kernels_f32, |x: f32| f64::from(x));
         let outputs = entry.kernels.outputs();

@@ -4,7 +4,7 @@
 use stiffarm::kernels::lanes::{f32x8, f64x4, f64x8};
 use stiffarm::kernels::{Kernels, Scalar};
 
-use crate::compare::Draws;
+use crate::compare::{Draws, block};
 use crate::fixtures;
 
 /// Sets of lanes that each output is tried with.
@@ -31,17 +31,11 @@ fn check<S, L, const N: usize>(
         let q_lanes: Vec<L> = q.iter().map(|q| lanes(*q)).collect();
         let wrench_lanes = wrench.map(&lanes);
         for &output in Kernels::<S>::outputs(robot) {
-            let (rows, columns) = output.shape(n);
             let numbers = output.state(n);
-            let mut together = vec![L::lit(0.0); rows * columns];
-            robot
-                .evaluate(output, &q_lanes[..numbers], &wrench_lanes, &mut together)
-                .expect("stable");
+            let together = block::<L>(robot, output, &q_lanes[..numbers], &wrench_lanes);
             for lane in 0..N {
                 let q: Vec<S> = q[..numbers].iter().map(|q| q[lane]).collect();
-                let mut single = vec![S::lit(0.0); rows * columns];
-                let wrench = wrench.map(|w| w[lane]);
-                robot.evaluate(output, &q, &wrench, &mut single).expect("stable");
+                let single = block::<S>(robot, output, &q, &wrench.map(|w| w[lane]));
                 for (a, b) in together.iter().zip(single) {
                     let a = each(*a)[lane];
                     assert!(same(a, b), "{} lane {lane}: {a:?} {b:?}", output.name());

@@ -15,7 +15,7 @@ use stiffarm_gap::motion::{Fourier, Limits};
 use stiffarm_gap::plant::motion::{Logged, MotionTruth, MovingPlant, Recording, Side, Stage, csv};
 use stiffarm_gap::rng::{Rng, Stream};
 
-use crate::compare::{CANCELLED, Draws, ForArm, deviation};
+use crate::compare::{CANCELLED, Draws, ForArm, deviation, known, read};
 
 stiffarm::robot! {
     /// A UR10 as its log has corrected it.
@@ -40,12 +40,6 @@ const TRUTHS: [&str; 8] = [
     "viscous_friction@joint 6=0.3",
 ];
 
-fn read(text: &str) -> (Robot, Arm) {
-    let (robot, _) = Robot::from_toml(text, FILE).expect("the file is valid");
-    let arm = stiffarm_gap::robot::arm(&robot).expect("numbers only");
-    (robot, arm)
-}
-
 /// A minute of it, read as a file.
 fn recorded(arm: &Arm) -> Log {
     let limits = Limits::of(arm, &[1.5], &[5.0]).expect("joints with limits");
@@ -69,7 +63,7 @@ fn found(robot: &Robot, arm: &Arm, log: &Log) -> (LogDiagnosis, Model, Corrected
 
 #[test]
 fn a_logged_arm_is_compiled_with_its_friction() {
-    let (file, textbook) = read(include_str!("../data/logged.toml"));
+    let (file, textbook) = read(include_str!("../data/logged.toml"), FILE);
     let drives = file.joints.iter().map(|joint| &joint.drive);
     assert!(drives.clone().all(|drive| drive.coulomb.is_some() || drive.viscous.is_some()));
     assert!(drives.clone().any(|drive| drive.rotor_inertia.is_some()));
@@ -85,7 +79,7 @@ fn a_logged_arm_is_compiled_with_its_friction() {
 
 #[test]
 fn the_compiled_arm_asks_what_the_diagnosis_predicts() {
-    let (robot, arm) = read(stiffarm_robots::arm("ur10").expect("a built-in robot").toml);
+    let (robot, arm) = known("ur10");
     let log = recorded(&arm);
     let (found, model, written) = found(&robot, &arm, &log);
     if std::env::var_os("STIFFARM_WRITE_DATA").is_some() {

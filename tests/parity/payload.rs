@@ -6,7 +6,7 @@ use stiffarm::kernels::generic::{Arm, Joint};
 use stiffarm::kernels::{Input, Kernels, Motion, Output, Side};
 use stiffarm_codegen::robot::Robot;
 
-use crate::compare::{Draws, ForArm, relative};
+use crate::compare::{Draws, ForArm, block, relative};
 
 const FILE: &str = include_str!("../data/payload.toml");
 
@@ -95,12 +95,9 @@ fn what_is_carried_moves_with_the_last_link() {
             let expected =
                 arm.evaluate(output, &still[..output.state(4)], &wrench).expect("stable");
             let expected = without_last(output, &expected);
-            let (rows, columns) = output.shape(3);
             let kernels: [&dyn Kernels<f64>; 2] = [&gripping::Robot, &inline::Robot];
             for kernels in kernels {
-                let mut out = vec![0.0; rows * columns];
-                let state = &three[..output.state(3)];
-                kernels.evaluate(output, state, &wrench, &mut out).expect("stable");
+                let out = block(kernels, output, &three[..output.state(3)], &wrench);
                 let worst = relative(&out, &expected, 0.0);
                 assert!(worst <= 1e-12, "{}: {worst:e}", output.name());
             }

@@ -7,9 +7,8 @@ use stiffarm::kernels::generic::Arm;
 use stiffarm::kernels::{Kernels, Output, Scalar, has};
 use stiffarm_codegen::derive::derive_at;
 use stiffarm_codegen::robot::{Asked, Robot};
-use stiffarm_robots::ARMS;
 
-use crate::compare::{CANCELLED, Draws, ForArm, relative, terms};
+use crate::compare::{CANCELLED, Draws, ForArm, collection, relative, terms};
 use crate::tables::{Table, table};
 
 /// The table with a frame on link `row` and a marker on the tool, at both of which everything is asked for that
@@ -90,10 +89,8 @@ fn agree(robot: &Robot, arm: &Arm, row: usize, (states, seed): (usize, u64)) -> 
 
 /// A frame on the link in the middle, a marker on the tool.
 fn every_arm(states: usize) {
-    for entry in ARMS {
+    for (entry, _, arm) in collection() {
         let table = Table { text: entry.toml.to_owned(), values: Vec::new() };
-        let (robot, _) = Robot::from_toml(entry.toml, entry.id).expect("the file is valid");
-        let arm = stiffarm_gap::robot::arm(&robot).expect("every parameter has a number");
         let row = arm.dof() / 2;
         let worst = agree(&placed(&table, row), &arm, row, (states, 6));
         println!("{} {worst:?}", entry.id);

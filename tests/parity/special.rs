@@ -5,10 +5,8 @@ use core::f64::consts::{FRAC_PI_2, PI};
 
 use stiffarm::kernels::Motion;
 use stiffarm::kernels::generic::{Arm, Convention};
-use stiffarm_codegen::robot::Robot;
-use stiffarm_robots::ARMS;
 
-use crate::compare::{CANCELLED, CANCELLED_F32, Draws, ForArm, deviation};
+use crate::compare::{CANCELLED, CANCELLED_F32, Draws, ForArm, collection, deviation, known};
 
 /// Straight, right and opposite angles of every joint by itself, the others drawn: the elbow stretched or
 /// folded, the wrist aligned, whichever joints they are and wherever the table has its zero.
@@ -84,9 +82,7 @@ fn postures(arm: &Arm) -> Vec<Vec<f64>> {
 
 #[test]
 fn special_postures_agree_with_the_textbook() {
-    for entry in ARMS {
-        let (robot, _) = Robot::from_toml(entry.toml, entry.id).expect("the file is valid");
-        let arm = stiffarm_gap::robot::arm(&robot).expect("every parameter has a number");
+    for (entry, _, arm) in collection() {
         let mut draws = Draws::new(13);
         for posture in postures(&arm) {
             // As in single precision, so that both are asked the same.
@@ -116,18 +112,13 @@ fn special_postures_agree_with_the_textbook() {
 /// The postures are what they are called.
 #[test]
 fn a_stretched_arm_is_stretched_and_an_aligned_wrist_is_singular() {
-    let textbook = |id: &str| {
-        let toml = stiffarm_robots::arm(id).expect("in the collection").toml;
-        let (robot, _) = Robot::from_toml(toml, id).expect("a valid file");
-        stiffarm_gap::robot::arm(&robot).expect("numbers only")
-    };
     let smallest = |arm: &Arm, q: &[f64]| arm.jacobian(q).singular_values().min();
     for id in ["kuka_kr240", "ur5", "ur10"] {
-        let arm = textbook(id);
+        let (_, arm) = known(id);
         let stretched = stretched(&arm, &mut Draws::new(14));
         assert!(smallest(&arm, &stretched) < 1e-6, "{id}: {}", smallest(&arm, &stretched));
     }
-    let kuka = textbook("kuka_kr240");
+    let (_, kuka) = known("kuka_kr240");
     let aligned = aligned(&kuka, &mut Draws::new(15));
     assert!(aligned.iter().filter(|q| smallest(&kuka, q) < 1e-12).count() >= 2);
 }

@@ -3,10 +3,9 @@
 
 use stiffarm::kernels::generic::Arm;
 use stiffarm::kernels::{Error, Kernels, Output, Scalar};
-use stiffarm_codegen::robot::Robot;
 
 use crate::boundary::{KINDS, around};
-use crate::compare::{Draws, ForArm};
+use crate::compare::{Draws, ForArm, known};
 use crate::fixtures;
 
 fn refuses<S: Scalar>(
@@ -56,12 +55,11 @@ fn check<R: Kernels<f64> + Kernels<f32>>(name: &str, arm: &Arm, kernels: &R) -> 
 
 #[test]
 fn refusals_agree_on_both_sides_of_the_boundary() {
-    let toml = stiffarm_robots::arm("kuka_kr240").expect("in the collection").toml;
-    let (kuka, _) = Robot::from_toml(toml, "kuka_kr240").expect("a valid file");
-    let textbook = |robot: &Robot| stiffarm_gap::robot::arm(robot).expect("numbers only");
-    let of = |module: &str| textbook(&fixtures::table(module));
+    let (_, kuka) = known("kuka_kr240");
+    let of =
+        |module: &str| stiffarm_gap::robot::arm(&fixtures::table(module)).expect("numbers only");
     let found = [
-        check("kuka_kr240", &textbook(&kuka), &stiffarm_robots::kuka_kr240::Robot),
+        check("kuka_kr240", &kuka, &stiffarm_robots::kuka_kr240::Robot),
         check("oblique", &of("oblique"), &fixtures::oblique::Robot),
         check("sliding", &of("sliding"), &fixtures::sliding::Robot),
         check("parallel", &of("parallel"), &fixtures::parallel::Robot),

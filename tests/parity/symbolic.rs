@@ -5,7 +5,7 @@ use stiffarm::kernels::Kernels;
 use stiffarm_codegen::robot::Robot;
 use stiffarm_robots::{SYMBOLIC, lin_planar_symbolic};
 
-use crate::compare::{CANCELLED, Draws, ForArm, deviation};
+use crate::compare::{Draws, agrees};
 
 /// Compares an arm whose parameters have got numbers with the textbook of the same.
 fn check(id: &str, value: impl Fn(&str) -> Option<f64>, kernels: &dyn Kernels<f64>) {
@@ -13,14 +13,7 @@ fn check(id: &str, value: impl Fn(&str) -> Option<f64>, kernels: &dyn Kernels<f6
     let (robot, _) = Robot::from_toml(entry.toml, id).expect("the file is valid");
     let robot = robot.with_parameters(value).expect("every symbol has a value");
     let arm = stiffarm_gap::robot::arm(&robot).expect("every parameter has a number");
-    let mut draws = Draws::new(6);
-    for _ in 0..1000 {
-        let (q, wrench) = (draws.state(&arm), draws.wrench(&arm));
-        for &output in kernels.outputs() {
-            let worst = deviation(kernels, &arm, output, (&q, &wrench), (CANCELLED, |x| x));
-            assert!(worst <= 1e-12, "{id} {}: {worst:e} at {q:?}", output.name());
-        }
-    }
+    agrees(id, &arm, kernels, (1000, 6));
 }
 
 mod planar {

@@ -1,6 +1,6 @@
 //! The text as C, one program for each arm.
 
-use stiffarm_codegen::emit::{COptions, Precision, Sines, c};
+use stiffarm_codegen::emit::{Precision, Sines};
 
 use crate::batch::{Batch, Case};
 use crate::compiler::{Folder, compile, run};
@@ -14,12 +14,8 @@ pub fn answers(batch: &Batch) -> Vec<Vec<String>> {
 fn of(case: &Case, seed: u64) -> Vec<String> {
     let (name, robot) = (&case.name, case.table.numeric());
     let folder = Folder::new(&format!("printed-{seed}-{name}"));
-    let (precision, sines) = (Precision::F64, Sines::Polynomial);
-    let files =
-        c(&robot, &COptions { name: name.clone(), precision, sines }).expect("numbers only");
-    folder.write(&format!("{name}.h"), &files.header);
-    folder.write(&format!("{name}.c"), &files.source);
-    folder.write("main.c", &program(name, &robot, precision));
+    folder.write_c(&robot, name, (Precision::F64, Sines::Polynomial));
+    folder.write("main.c", &program(name, &robot, Precision::F64));
     compile("cc", &folder, &["-O1", "main.c", &format!("{name}.c"), "-o", name, "-lm"]);
     run(&folder, name, &case.input()).lines().map(str::to_owned).collect()
 }

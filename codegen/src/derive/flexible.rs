@@ -123,8 +123,7 @@ impl<'d> Walk<'d> {
     /// A vector of the present frame in base axes.
     fn in_base(&mut self, v: Vec3) -> Vec3 {
         let axes = self.axes();
-        let parts: [Vec3; 3] = core::array::from_fn(|k| self.g.scale3(v[k], axes[k]));
-        parts.into_iter().fold([Expr::ZERO; 3], |sum, part| self.g.add3(sum, part))
+        self.g.along3(v, axes)
     }
 
     /// `E` at a place.

@@ -7,7 +7,7 @@ use stiffarm_kernels::{Input, Output, Unstable};
 use super::chain::ROW;
 use super::own::{Held, Own};
 use super::readings::{Given, Readings};
-use crate::expr::{Expr, Graph, Node, OpCount, Symbol};
+use crate::expr::{Expr, Graph, OpCount, Symbol};
 use crate::number::Number;
 
 /// Expressions for a set of outputs of one arm.
@@ -91,11 +91,8 @@ impl Program {
     pub fn inputs(&self) -> impl Iterator<Item = Input> {
         let reached = self.own.as_ref().map(|_| self.graph.reachable(&self.roots()));
         let entered = reached.map(|reached| {
-            let nodes = self.graph.nodes().iter().zip(reached).filter(|(_, reached)| *reached);
-            let inputs = nodes.filter_map(|(node, _)| match node {
-                Node::Symbol(s) => Some(self.graph.symbol_of(*s).input()?.0),
-                _ => None,
-            });
+            let nodes = reached.into_iter().enumerate().filter(|(_, reached)| *reached);
+            let inputs = nodes.filter_map(|(at, _)| Some(self.graph.symbol_at(at)?.input()?.0));
             inputs.chain([Input::Joints]).collect::<Vec<Input>>()
         });
         let taken = move |input: &Input| match &entered {
@@ -179,10 +176,8 @@ impl Program {
             // An undisplaced chain; no output of a table has displacements or inputs of one's own.
             Symbol::Displacement { .. } | Symbol::Own { .. } => T::zero(),
             Symbol::Deflection { .. } | Symbol::Response(_) => {
-                let known = solved.iter().find(|(e, _)| {
-                    matches!(self.graph.node(*e), Node::Symbol(s)
-                        if self.graph.symbol_of(s) == symbol)
-                });
+                let is = |e: Expr| self.graph.symbol_at(e.node()) == Some(symbol);
+                let known = solved.iter().find(|(e, _)| is(*e));
                 known.map_or_else(T::zero, |(_, x)| *x)
             }
         };

@@ -2,7 +2,7 @@
 
 use num_traits::Float;
 
-use crate::expr::{Expr, Graph, Node, OpCount, Symbol, from};
+use crate::expr::{Expr, Graph, OpCount, Symbol, from};
 use crate::number::Number;
 use crate::robot::beyond::{Law, Move};
 use crate::robot::{Motion, Robot};
@@ -85,10 +85,8 @@ impl Readings {
 
     /// Whether every reading is the joint's value.
     pub fn are_joints(&self) -> bool {
-        let own = |(j, e): (usize, &Expr)| {
-            let Node::Symbol(s) = self.graph.node(*e) else { return false };
-            *self.graph.symbol_of(s) == Symbol::Joint(j)
-        };
+        let own =
+            |(j, e): (usize, &Expr)| self.graph.symbol_at(e.node()) == Some(&Symbol::Joint(j));
         self.joints.iter().enumerate().all(own)
     }
 

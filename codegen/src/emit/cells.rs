@@ -1,6 +1,7 @@
 //! Cells of a table as text.
 
 use crate::number::Number;
+use crate::robot::pi::spell;
 use crate::robot::{Angle, Frame, Joint, Motion, Robot, Value};
 
 /// The stiffness of a joint with its unit; `rigid` of one that has none.
@@ -49,15 +50,6 @@ pub(super) fn angle(angle: &Angle) -> String {
     match angle {
         Angle::Symbol(name) => name.clone(),
         Angle::Radians(n) => plain(*n),
-        Angle::Pi(r) => {
-            let (n, d) = (*r.numer(), *r.denom());
-            let multiple = match n {
-                0 => return "0".to_string(),
-                1 => "pi".to_string(),
-                -1 => "-pi".to_string(),
-                n => format!("{n}*pi"),
-            };
-            if d == 1 { multiple } else { format!("{multiple}/{d}") }
-        }
+        Angle::Pi(r) => spell(*r),
     }
 }

@@ -1,7 +1,7 @@
 //! The printer of CUDA C: the C printer's functions as a GPU's, and for each a kernel with one posture a thread.
 
 use super::asked;
-use super::c::comment::{harmless, plain};
+use super::c::comment::{FOR_CPP, harmless, plain};
 use super::c::header::{sentences, structures};
 use super::c::source::systems;
 use super::c::{COptions, Module, Precision, Sines, SymbolicTable};
@@ -53,9 +53,7 @@ pub(crate) fn cuda_with(
     systems(&module, &body, &mut out);
     out.verbatim(&body);
     out.blank();
-    out.code("#ifdef __cplusplus");
-    out.code("}");
-    out.code("#endif");
+    out.verbatim(FOR_CPP[1]);
     Ok(out.finish())
 }
 
@@ -86,9 +84,7 @@ fn head(module: &Module, precision: Precision, out: &mut Lines) {
     let world = world(robot).map(|world| plain(&world));
     out.comment(&said.into_iter().chain(world).collect::<Vec<_>>());
     out.blank();
-    out.code("#ifdef __cplusplus");
-    out.code("extern \"C\" {");
-    out.code("#endif");
+    out.verbatim(FOR_CPP[0]);
     out.blank();
     let n = robot.dof();
     let define = |out: &mut Lines, name: &str, value: usize| {

@@ -47,12 +47,18 @@ impl Lines {
 
     /// Text wrapped at words, every line behind `start`.
     pub fn wrapped(&mut self, text: &str, start: &str) {
-        let room = WIDTH - 4 * self.depth - start.len();
-        let mut current = String::new();
+        self.wrapped_to(WIDTH, text, [start; 2]);
+    }
+
+    /// The same in so many columns, the first line and the others behind what they begin with.
+    pub fn wrapped_to(&mut self, width: usize, text: &str, [first, others]: [&str; 2]) {
+        let room = width - 4 * self.depth - first.len();
+        let (mut start, mut current) = (first, String::new());
         for word in text.split(' ') {
             if !current.is_empty() && current.chars().count() + 1 + word.chars().count() > room {
                 self.push(4 * self.depth, format!("{start}{current}").trim_end());
                 current.clear();
+                start = others;
             }
             if !current.is_empty() {
                 current.push(' ');

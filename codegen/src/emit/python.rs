@@ -353,8 +353,7 @@ impl Printer<'_> {
         let readings = &self.module.readings;
         let posture = &self.of.posture;
         if readings.moves && posture.reads_joints() {
-            let extras = readings.extras.iter().map(|e| format!(", {}", e.name()));
-            out.code(&format!("q = joints(q{})", extras.collect::<String>()));
+            out.code(&format!("q = joints(q{})", readings.handed_on()));
         }
         sines(out, &self.of.angles, &IN_FUNCTION);
         for plain in &self.of.plain {

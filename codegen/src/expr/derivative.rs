@@ -13,53 +13,13 @@ impl Graph {
         let last = outputs.iter().map(|e| e.node()).max().unwrap_or(0);
         let mut slopes: Vec<Expr> = Vec::with_capacity(last + 1);
         for at in 0..=last {
-            let here = Expr::new(at, false);
-            let node = self.nodes()[at];
             let slope = |e: Expr| slopes[e.node()].signed(e.is_negative());
-            let d = match node {
-                Node::Number(_) => Expr::ZERO,
+            let d = match self.nodes()[at] {
                 Node::Symbol(s) => along(self.symbol_of(s)),
-                Node::Add(a, b) => {
-                    let (da, db) = (slope(a), slope(b));
-                    self.add(da, db)
-                }
-                Node::Mul(a, b) => {
-                    let (da, db) = (slope(a), slope(b));
-                    let (left, right) = (self.mul(da, b), self.mul(a, db));
-                    self.add(left, right)
-                }
-                Node::Recip(a) => {
-                    let da = slope(a);
-                    let square = self.mul(here, here);
-                    -self.mul(da, square)
-                }
-                Node::Sqrt(a) => {
-                    let da = slope(a);
-                    let twice = self.add(here, here);
-                    let inverse = self.recip(twice);
-                    self.mul(da, inverse)
-                }
-                // Flat but for the step at zero.
-                Node::Sign(_) => Expr::ZERO,
-                Node::Sin(a) => {
-                    let da = slope(a);
-                    let cosine = self.cos(a);
-                    self.mul(da, cosine)
-                }
-                Node::Cos(a) => {
-                    let da = slope(a);
-                    let sine = self.sin(a);
-                    -self.mul(da, sine)
-                }
-                Node::Atan2(y, x) => {
-                    let (dy, dx) = (slope(y), slope(x));
-                    let [by_y, by_x] = self.atan2_slopes(y, x);
-                    let (up, along) = (self.mul(dy, by_y), self.mul(dx, by_x));
-                    self.add(up, along)
-                }
-                Node::Select(on, a, b) => {
-                    let (da, db) = (slope(a), slope(b));
-                    self.select(on, da, db)
+                Node::Select(on, a, b) => self.select(on, slope(a), slope(b)),
+                _ => {
+                    let partials = self.partials(at).into_iter().flatten();
+                    self.products(partials.map(|(operand, partial)| (slope(operand), partial)))
                 }
             };
             slopes.push(d);
@@ -78,39 +38,14 @@ impl Graph {
             if adjoint.is_zero() {
                 continue;
             }
-            let here = Expr::new(at, false);
             let parts = match self.nodes()[at] {
-                // A sign is flat but for its step at zero.
-                Node::Number(_) | Node::Symbol(_) | Node::Sign(_) => continue,
-                Node::Add(a, b) => [Some((a, adjoint)), Some((b, adjoint))],
-                Node::Mul(a, b) => {
-                    [Some((a, self.mul(adjoint, b))), Some((b, self.mul(adjoint, a)))]
-                }
-                Node::Atan2(y, x) => {
-                    let [by_y, by_x] = self.atan2_slopes(y, x);
-                    [Some((y, self.mul(adjoint, by_y))), Some((x, self.mul(adjoint, by_x)))]
-                }
                 Node::Select(on, a, b) => [
                     Some((a, self.select(on, adjoint, Expr::ZERO))),
                     Some((b, self.select(on, Expr::ZERO, adjoint))),
                 ],
-                Node::Recip(a) => {
-                    let square = self.mul(here, here);
-                    [Some((a, -self.mul(adjoint, square))), None]
-                }
-                Node::Sqrt(a) => {
-                    let twice = self.add(here, here);
-                    let inverse = self.recip(twice);
-                    [Some((a, self.mul(adjoint, inverse))), None]
-                }
-                Node::Sin(a) => {
-                    let cosine = self.cos(a);
-                    [Some((a, self.mul(adjoint, cosine))), None]
-                }
-                Node::Cos(a) => {
-                    let sine = self.sin(a);
-                    [Some((a, -self.mul(adjoint, sine))), None]
-                }
+                _ => self.partials(at).map(|known| {
+                    known.map(|(operand, partial)| (operand, self.mul(adjoint, partial)))
+                }),
             };
             for (operand, part) in parts.into_iter().flatten() {
                 let part = part.signed(operand.is_negative());
@@ -139,12 +74,28 @@ impl Graph {
         if cost(&backwards) < cost(&forwards) { backwards } else { forwards }
     }
 
-    /// The derivatives of `atan2(y, x)` by y and by x.
-    fn atan2_slopes(&mut self, y: Expr, x: Expr) -> [Expr; 2] {
-        let (up, along) = (self.mul(y, y), self.mul(x, x));
-        let square = self.add(up, along);
-        let inverse = self.recip(square);
-        [self.mul(x, inverse), -self.mul(y, inverse)]
+    /// The operands of a node that is no choice, and what it changes by with each.
+    fn partials(&mut self, at: usize) -> [Option<(Expr, Expr)>; 2] {
+        let here = Expr::new(at, false);
+        let one = |operand: Expr, partial: Expr| [Some((operand, partial)), None];
+        match self.nodes()[at] {
+            // A sign is flat but for its step at zero.
+            Node::Number(_) | Node::Symbol(_) | Node::Sign(_) | Node::Select(..) => [None; 2],
+            Node::Add(a, b) => [a, b].map(|operand| Some((operand, Expr::ONE))),
+            Node::Mul(a, b) => [Some((a, b)), Some((b, a))],
+            Node::Recip(a) => one(a, -self.mul(here, here)),
+            Node::Sqrt(a) => {
+                let twice = self.add(here, here);
+                one(a, self.recip(twice))
+            }
+            Node::Sin(a) => one(a, self.cos(a)),
+            Node::Cos(a) => one(a, -self.sin(a)),
+            Node::Atan2(y, x) => {
+                let square = self.products([(y, y), (x, x)]);
+                let inverse = self.recip(square);
+                [Some((y, self.mul(x, inverse))), Some((x, -self.mul(y, inverse)))]
+            }
+        }
     }
 
     /// The expressions with some symbols at zero; `None` where one of them has no value there.

@@ -200,6 +200,14 @@ impl Graph {
         &self.symbols[index as usize]
     }
 
+    /// The symbol that a node is, if it is one.
+    pub fn symbol_at(&self, node: usize) -> Option<&Symbol> {
+        match self.nodes[node] {
+            Node::Symbol(index) => Some(self.symbol_of(index)),
+            _ => None,
+        }
+    }
+
     /// The expression of a symbol.
     pub fn symbol(&mut self, symbol: Symbol) -> Expr {
         let known = self.symbols.iter().position(|s| *s == symbol);

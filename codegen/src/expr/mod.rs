@@ -10,6 +10,7 @@ mod evaluate;
 mod fold;
 mod graph;
 mod solve;
+pub(crate) mod term;
 mod trig;
 mod vector;
 

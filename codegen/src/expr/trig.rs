@@ -124,12 +124,10 @@ impl Graph {
                 _ => terms.push(e),
             }
         }
-        terms.sort_by_key(|e| match self.node(*e) {
-            Node::Symbol(s) => match self.symbol_of(s) {
-                Symbol::Joint(joint) => (0, *joint),
-                _ => (1, e.node()),
-            },
-            _ => (2, e.node()),
+        terms.sort_by_key(|e| match self.symbol_at(e.node()) {
+            Some(Symbol::Joint(joint)) => (0, *joint),
+            Some(_) => (1, e.node()),
+            None => (2, e.node()),
         });
         terms
     }

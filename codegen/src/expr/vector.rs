@@ -27,10 +27,26 @@ impl Graph {
 
     /// `a · b`.
     pub fn dot3(&mut self, a: Vec3, b: Vec3) -> Expr {
-        (0..3).fold(Expr::ZERO, |sum, k| {
-            let product = self.mul(a[k], b[k]);
+        self.products(a.into_iter().zip(b))
+    }
+
+    /// The sum of the products of these pairs.
+    pub fn products(&mut self, pairs: impl IntoIterator<Item = (Expr, Expr)>) -> Expr {
+        pairs.into_iter().fold(Expr::ZERO, |sum, (a, b)| {
+            let product = self.mul(a, b);
             self.add(sum, product)
         })
+    }
+
+    /// The sum of some vectors.
+    pub fn sum3(&mut self, parts: impl IntoIterator<Item = Vec3>) -> Vec3 {
+        parts.into_iter().fold([Expr::ZERO; 3], |sum, part| self.add3(sum, part))
+    }
+
+    /// The vector of these components along some axes.
+    pub fn along3(&mut self, components: Vec3, axes: [Vec3; 3]) -> Vec3 {
+        let parts: [Vec3; 3] = core::array::from_fn(|k| self.scale3(components[k], axes[k]));
+        self.sum3(parts)
     }
 
     /// `a × b`.

@@ -5,7 +5,7 @@
 
 use proptest::prelude::*;
 use proptest::sample::select;
-use stiffarm_draws::texts::{answered, mutated};
+use stiffarm_draws::texts::{PIECES, answered, mutated};
 
 use crate::robot::{Robot, parse_tokens};
 
@@ -80,63 +80,15 @@ a3    | q        | 0       | 1 in | 1/2*pi  | -             | -    | -         |
     { youngs_modulus: E, shear_modulus: G, section: { area: A, iy: I, iz: I, j: 2 mm^4 } }
 "#;
 
-/// Pieces that a mutation puts in.
-const PIECES: &[&str] = &[
-    "",
-    " ",
-    "\n",
-    "\"",
-    "|",
-    "-",
-    "+",
-    "*",
-    "/",
-    "^",
-    ",",
-    ";",
-    ":",
-    "[",
-    "]",
-    "{",
-    "}",
-    "(",
-    ")",
-    "q",
-    "pi",
-    "deg",
-    "mm",
-    "kg",
-    "1e999",
-    "1e-999",
-    "1e-310",
-    "0",
-    "-1",
-    "9.5",
-    "1.5708",
-    "nan",
-    "inf",
-    "°",
-    "²",
-    "·",
-    "é",
-    "lb",
-    "fn",
-    "joint",
-    "a1",
-    "'",
-    "#",
-    "=",
-    "[[joint]]",
-    "[joint]",
-    "1/0",
-    "::",
-    "170141183460469231731687303715884105728",
-    "^99",
-    "^-6",
-    "pi*pi",
-    "\u{feff}",
-    "\0",
-];
+/// Pieces that a mutation puts in, among them a number of more than 128 bits.
+fn pieces() -> Vec<&'static str> {
+    let short = [
+        "*", "/", "^", ":", "{", "}", "(", ")", "q", "pi", "deg", "mm", "1e-999", "1e-310", "9.5",
+        "²", "·", "lb", "fn", "joint", "a1", "[joint]", "::", "^99", "^-6", "pi*pi",
+    ];
+    let long = ["[[joint]]", "170141183460469231731687303715884105728"];
+    [&PIECES[..], &short, &long].concat()
+}
 
 fn read_file(text: &str) {
     match Robot::from_toml(text, "arm.toml") {
@@ -177,12 +129,12 @@ fn the_seeds_are_sound() {
 /// Cells of pieces, for a key of a joint.
 fn cells() -> impl Strategy<Value = (&'static str, String)> {
     let keys = ["a", "alpha", "stiffness", "mass", "limits", "com"];
-    let pieces = prop::collection::vec(select(PIECES), 0..8);
+    let pieces = prop::collection::vec(select(pieces()), 0..8);
     (select(keys.to_vec()), pieces.prop_map(|pieces| pieces.concat()))
 }
 
 fn fuzz_files(cases: u32) {
-    answered(cases, &mutated(&[FILE], usize::MAX, PIECES), |text| {
+    answered(cases, &mutated(&[FILE], usize::MAX, &pieces()), |text| {
         read_file(&text);
         Ok(())
     });
@@ -200,11 +152,11 @@ fn fuzz_files(cases: u32) {
 }
 
 fn fuzz_tables(cases: u32) {
-    answered(cases, &mutated(&[TABLE], usize::MAX, PIECES), |text| {
+    answered(cases, &mutated(&[TABLE], usize::MAX, &pieces()), |text| {
         read_tokens(&text);
         Ok(())
     });
-    let pieces = prop::collection::vec(select(PIECES), 0..30);
+    let pieces = prop::collection::vec(select(pieces()), 0..30);
     answered(cases / 10, &pieces, |pieces| {
         let table = pieces.join(" ");
         read_tokens(&format!("mod x; convention: standard_dh; joint | theta | d | a\n{table}"));

@@ -1,8 +1,9 @@
 //! Angles whose sines and cosines enter a function: what they are sums of, and what they are called.
 
+use super::constants::parameter;
 use super::term::{Name, Term};
 use crate::derive::COMPONENTS;
-use crate::expr::{Expr, Graph, Node, Symbol};
+use crate::expr::{Expr, Graph, Symbol};
 
 /// An angle whose sine and cosine are inputs.
 #[derive(Clone, Debug)]
@@ -42,11 +43,8 @@ pub(super) fn last_joint(g: &Graph, sum: Expr) -> Option<usize> {
 
 /// The joints in a sum of angles, each with whether it is subtracted.
 fn joints_of(g: &Graph, sum: Expr) -> Vec<(usize, bool)> {
-    let joint = |e: Expr| match g.node(e) {
-        Node::Symbol(s) => match g.symbol_of(s) {
-            Symbol::Joint(joint) => Some((*joint, e.is_negative())),
-            _ => None,
-        },
+    let joint = |e: Expr| match g.symbol_at(e.node())? {
+        Symbol::Joint(joint) => Some((*joint, e.is_negative())),
         _ => None,
     };
     g.terms(sum).into_iter().filter_map(joint).collect()
@@ -54,23 +52,14 @@ fn joints_of(g: &Graph, sum: Expr) -> Vec<(usize, bool)> {
 
 /// The parameters in an angle without joints.
 fn parameters_of(g: &Graph, sum: Expr) -> Vec<String> {
-    let parameter = |e: Expr| match g.node(e) {
-        Node::Symbol(s) => match g.symbol_of(s) {
-            Symbol::Parameter(name) => Some(name.clone()),
-            _ => None,
-        },
-        _ => None,
-    };
-    g.terms(sum).into_iter().filter_map(parameter).collect()
+    g.terms(sum).into_iter().filter_map(|e| parameter(g, e.node()).map(str::to_owned)).collect()
 }
 
 /// What displacements add to an angle's name: `d1` behind joints for dφ1, alone `phi1`.
 fn displaced(g: &Graph, sum: Expr, alone: bool) -> String {
     let mut places = Vec::new();
     for e in g.terms(sum) {
-        if let Node::Symbol(s) = g.node(e)
-            && let Symbol::Displacement { place, component } = g.symbol_of(s)
-        {
+        if let Some(Symbol::Displacement { place, component }) = g.symbol_at(e.node()) {
             places.push((*place, COMPONENTS[*component].trim_start_matches('d')));
         }
     }

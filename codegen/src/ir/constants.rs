@@ -5,7 +5,7 @@ use std::collections::HashMap;
 
 use super::lower::Lowering;
 use super::term::{Name, Term};
-use crate::expr::{Expr, Graph, Node, Symbol};
+use crate::expr::{Expr, Graph, Symbol};
 
 /// The fields of the generated `Constants`, shared by all functions of a module.
 #[derive(Clone, Debug, Default)]
@@ -64,12 +64,9 @@ impl Constants {
 }
 
 /// The parameter that a node is.
-fn parameter(g: &Graph, node: usize) -> Option<&str> {
-    match g.nodes()[node] {
-        Node::Symbol(s) => match g.symbol_of(s) {
-            Symbol::Parameter(name) => Some(name),
-            _ => None,
-        },
+pub(super) fn parameter(g: &Graph, node: usize) -> Option<&str> {
+    match g.symbol_at(node)? {
+        Symbol::Parameter(name) => Some(name),
         _ => None,
     }
 }

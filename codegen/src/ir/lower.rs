@@ -36,14 +36,11 @@ impl Lowering<'_> {
 
     /// A sum of angles, term by term, over the arguments themselves.
     pub fn angle(&self, sum: Expr) -> Term {
-        let term = |e: Expr| match self.graph.node(e) {
-            Node::Symbol(s) => match self.graph.symbol_of(s) {
-                Symbol::Joint(joint) => Term::Entry("q", vec![*joint]),
-                Symbol::Displacement { place, component } => {
-                    Term::Entry("e", vec![*place, *component])
-                }
-                _ => self.term(e.abs()),
-            },
+        let term = |e: Expr| match self.graph.symbol_at(e.node()) {
+            Some(Symbol::Joint(joint)) => Term::Entry("q", vec![*joint]),
+            Some(Symbol::Displacement { place, component }) => {
+                Term::Entry("e", vec![*place, *component])
+            }
             _ => self.term(e.abs()),
         };
         Term::sum(self.graph.terms(sum).into_iter().map(|e| (term(e), e.is_negative())))

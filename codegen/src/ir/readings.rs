@@ -53,6 +53,11 @@ impl Extra {
 }
 
 impl Readings {
+    /// The arguments beside readings as they are handed on: `, sides, warming`.
+    pub fn handed_on(&self) -> String {
+        self.extras.iter().map(|extra| format!(", {}", extra.name())).collect()
+    }
+
     pub fn of(robot: &Robot) -> Readings {
         let readings = derive::Readings::of(robot);
         let g = &readings.graph;
@@ -99,8 +104,7 @@ impl Readings {
 }
 
 fn symbol(g: &Graph, node: usize) -> Option<Term> {
-    let Node::Symbol(s) = g.nodes()[node] else { return None };
-    match g.symbol_of(s) {
+    match g.symbol_at(node)? {
         Symbol::Joint(joint) => Some(Term::Entry("q", vec![*joint])),
         Symbol::Side(joint) => Some(Term::Entry(Extra::Sides.name(), vec![*joint])),
         Symbol::Warming => Some(Term::local(Extra::Warming.name())),

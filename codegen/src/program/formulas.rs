@@ -1,14 +1,14 @@
 //! What the formulas of one function are written with: its inputs, the arm's geometry, derivatives, results.
 
 use core::cell::{Cell, RefCell};
-use core::mem::swap;
+use core::mem::{swap, take};
 
 use super::entries::Entries;
-use super::geometry::{Frame, Point, Vector, cross, plus};
-use super::term::{Sheet, Term};
+use super::geometry::{Frame, Point, Vector};
 use crate::derive::{
     Chain, Levers, OwnInput, Point as Place, Quantity, ROW, Size, derived, tool_offsets, twists,
 };
+use crate::expr::term::{Sheet, Term, cross, plus};
 use crate::expr::{Expr, Node, Symbol, Twist, Vec3};
 use crate::robot::Output;
 
@@ -33,10 +33,8 @@ pub(super) fn is_variation(symbol: &Symbol) -> bool {
 
 impl<'r> Formulas<'r> {
     pub(super) fn new(mut chain: Chain<'r>) -> Self {
-        let sheet = Sheet::default();
-        swap(&mut chain.g, &mut sheet.graph.borrow_mut());
         Formulas {
-            sheet,
+            sheet: Sheet::new(take(&mut chain.g)),
             chain: RefCell::new(chain),
             inputs: RefCell::default(),
             results: RefCell::default(),
@@ -53,7 +51,7 @@ impl<'r> Formulas<'r> {
     }
 
     fn symbol(&self, symbol: Symbol) -> Term<'_> {
-        self.sheet.term(self.sheet.graph.borrow_mut().symbol(symbol))
+        self.sheet.symbol(symbol)
     }
 
     fn vector_of(&self, v: Vec3) -> Vector<'_> {
@@ -295,15 +293,12 @@ fn twists_at(chain: &mut Chain, point: &Point) -> Vec<Twist> {
     }
     let levers = Levers::to(chain, point.boundary, &point.offsets, point.beyond.v);
     let twist = |chain: &mut Chain, joint: usize| {
-        let (step, z) = (chain.joint_step(joint), chain.joint_axis(joint));
-        match (step < point.boundary, chain.revolute(joint)) {
-            (false, _) => ([Expr::ZERO; 3], [Expr::ZERO; 3]),
-            (true, false) => (z, [Expr::ZERO; 3]),
-            (true, true) => {
-                let lever = levers.lever(&mut chain.g, Place::Step(step), Some(z));
-                (chain.g.cross3(z, lever), z)
-            }
+        let step = chain.joint_step(joint);
+        if step >= point.boundary {
+            return Twist::default();
         }
+        let (z, turns) = (chain.joint_axis(joint), chain.revolute(joint));
+        levers.twist(&mut chain.g, Place::Step(step), z, turns)
     };
     (0..chain.dof()).map(|joint| twist(chain, joint)).collect()
 }

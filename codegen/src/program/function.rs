@@ -1,10 +1,11 @@
 //! A function: formulas, laid out in the frame of the chain in which they cost least.
 
 use super::formulas::Formulas;
-use super::mistake::{Mistake, Refused};
+use super::mistake::Refused;
 use crate::derive::{
     Block, Held, Own, OwnInput, Passes, Program, Quantity, Readings, Way, cheapest,
 };
+use crate::expr::term::Mistake;
 use crate::expr::{OpCount, Symbol};
 use crate::robot::Robot;
 

@@ -3,7 +3,7 @@
 
 use core::ops::{Add, Mul, Neg, Sub};
 
-use super::term::{Sheet, Term};
+use crate::expr::term::{Sheet, Term, cross, plus};
 use crate::expr::{Expr, Graph, Vec3, parallel3};
 
 /// A vector in space: a direction, a displacement, an axis.
@@ -187,18 +187,6 @@ impl<'f> Frame<'f> {
         let [x, y, z] = self.axes;
         x * components[0] + y * components[1] + z * components[2]
     }
-}
-
-/// Sum of components along the same axes.
-pub(super) fn plus<'f>(a: [Term<'f>; 3], b: [Term<'f>; 3]) -> [Term<'f>; 3] {
-    core::array::from_fn(|k| a[k] + b[k])
-}
-
-pub(super) fn cross<'f>(a: [Term<'f>; 3], b: [Term<'f>; 3]) -> [Term<'f>; 3] {
-    core::array::from_fn(|k| {
-        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-        a[i] * b[j] - a[j] * b[i]
-    })
 }
 
 /// Axes of a frame turned by a quaternion w, x, y, z, which need not be of length 1 (and must not be 0).

@@ -1,14 +1,8 @@
 //! What is wrong with a program of one's own.
 
 use core::fmt;
-use core::panic::Location;
 
-/// One thing, at a place of the build script where it has one.
-#[derive(Clone, Debug)]
-pub(super) struct Mistake {
-    pub at: Option<&'static Location<'static>>,
-    pub text: String,
-}
+use crate::expr::term::Mistake;
 
 /// Why a function was not made: every mistake in it, each at its line of the build script.
 #[derive(Clone)]

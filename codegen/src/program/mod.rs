@@ -49,13 +49,12 @@ mod function;
 mod geometry;
 mod mistake;
 mod module;
-mod term;
 
 pub use crate::derive::{OwnInput, Quantity, Size};
+pub use crate::expr::term::Term;
 pub use entries::Entries;
 pub use formulas::Formulas;
 pub use function::Function;
 pub use geometry::{Frame, Point, Vector, quaternion, roll_pitch_yaw};
 pub use mistake::Refused;
 pub use module::Module;
-pub use term::Term;

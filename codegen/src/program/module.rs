@@ -4,12 +4,13 @@ use std::path::PathBuf;
 
 use super::formulas::Formulas;
 use super::function::Function;
-use super::mistake::{Mistake, Refused};
+use super::mistake::Refused;
 use crate::derive::Program;
 use crate::emit::{
     CFiles, COptions, CudaOptions, RustOptions, SymbolicTable, c_with, cuda_with, python_with,
     rust_with,
 };
+use crate::expr::term::Mistake;
 use crate::out_dir::{BuildError, write_to_out_dir};
 use crate::robot::{CLOSED_FORM, GIVES, INVERSE_KINEMATICS, Output, Robot};
 

@@ -7,129 +7,107 @@ use super::model::Motion;
 /// Exponents of length, mass, time and angle.
 pub(crate) type Powers = [i32; 4];
 
-/// What kind of quantity a cell, and so a symbolic parameter, holds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Dimension {
+/// The kinds, one to a line: the SI unit in which the table keeps the quantity, its exponents, an example, and what it is
+/// in words.
+macro_rules! dimensions {
+    ($($(#[$doc:meta])* $name:ident: $unit:literal, $powers:expr, $example:literal, $words:literal;)*) => {
+        /// What kind of quantity a cell, and so a symbolic parameter, holds.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+        pub enum Dimension {
+            $($(#[$doc])* $name,)*
+        }
+
+        const ALL: &[Dimension] = &[$(Dimension::$name),*];
+
+        impl Dimension {
+            /// Unit, exponents, example, words.
+            fn row(self) -> (&'static str, Powers, &'static str, &'static str) {
+                match self {
+                    $(Dimension::$name => ($unit, $powers, $example, $words),)*
+                }
+            }
+        }
+    };
+}
+
+dimensions! {
     /// `d`, `a`, a centre of mass, a tool's translation: m.
-    Length,
+    Length: "m", [1, 0, 0, 0], "350 mm", "a length";
     /// `theta`, `alpha`: rad.
-    Angle,
+    Angle: "rad", [0, 0, 0, 1], "90 deg", "an angle";
     /// A link's mass: kg.
-    Mass,
+    Mass: "kg", [0, 1, 0, 0], "120 kg", "a mass";
     /// Gravity: m/s².
-    Acceleration,
+    Acceleration: "m/s²", [1, 0, -2, 0], "9.80665 m/s^2", "an acceleration";
     /// Stiffness of a revolute joint: N·m/rad.
-    AngularStiffness,
+    AngularStiffness: "N·m/rad", [2, 1, -2, -1], "3.8e6 N*m/rad", "a torque per angle";
     /// Stiffness of a prismatic joint: N/m.
-    LinearStiffness,
+    LinearStiffness: "N/m", [0, 1, -2, 0], "2e7 N/m", "a force per length";
     /// An elastic modulus: Pa.
-    Pressure,
+    Pressure: "Pa", [-1, 1, -2, 0], "69 GPa", "a pressure";
     /// A cross-section's area: m².
-    Area,
+    Area: "m²", [2, 0, 0, 0], "24 cm^2", "an area";
     /// A cross-section's second moment or torsion constant: m⁴.
-    SecondMoment,
+    SecondMoment: "m⁴", [4, 0, 0, 0], "5.2e6 mm^4", "a second moment of area";
     /// A material's density: kg/m³.
-    Density,
+    Density: "kg/m³", [-3, 1, 0, 0], "2700 kg/m^3", "a density";
     /// A moment of inertia: kg·m².
-    Inertia,
+    Inertia: "kg·m²", [2, 1, 0, 0], "0.35 kg*m^2", "a moment of inertia";
     /// A torque: N·m.
-    Torque,
+    Torque: "N·m", TORQUE, "12 N*m", "a torque";
     /// A force: N.
-    Force,
+    Force: "N", [1, 1, -2, 0], "80 N", "a force";
     /// Viscous friction of a revolute joint: N·m·s/rad.
-    AngularDamping,
+    AngularDamping: "N·m·s/rad", [2, 1, -1, -1], "5 N*m*s/rad", "a torque per angular speed";
     /// Viscous friction of a prismatic joint: N·s/m.
-    LinearDamping,
+    LinearDamping: "N·s/m", [0, 1, -1, 0], "300 N*s/m", "a force per speed";
     /// The gear of a prismatic joint: rad/m.
-    TurnPerLength,
+    TurnPerLength: "rad/m", [-1, 0, 0, 1], "628 rad/m", "an angle per length";
     /// A pure number, such as a shear coefficient.
-    Ratio,
+    Ratio: "", [0; 4], "0.85", "a pure number";
 }
 
 impl Dimension {
+    /// Of a joint that turns the one, of a joint that slides the other.
+    fn by(motion: Motion, [revolute, prismatic]: [Dimension; 2]) -> Dimension {
+        match motion {
+            Motion::Revolute => revolute,
+            Motion::Prismatic => prismatic,
+        }
+    }
+
     /// What the stiffness of a joint is measured as.
     pub fn stiffness(motion: Motion) -> Dimension {
-        match motion {
-            Motion::Revolute => Dimension::AngularStiffness,
-            Motion::Prismatic => Dimension::LinearStiffness,
-        }
+        Dimension::by(motion, [Dimension::AngularStiffness, Dimension::LinearStiffness])
     }
 
     /// What the load on a joint, and so its dry friction, is measured as.
     pub fn load(motion: Motion) -> Dimension {
-        match motion {
-            Motion::Revolute => Dimension::Torque,
-            Motion::Prismatic => Dimension::Force,
-        }
+        Dimension::by(motion, [Dimension::Torque, Dimension::Force])
     }
 
     /// What the viscous friction of a joint is measured as.
     pub fn damping(motion: Motion) -> Dimension {
-        match motion {
-            Motion::Revolute => Dimension::AngularDamping,
-            Motion::Prismatic => Dimension::LinearDamping,
-        }
+        Dimension::by(motion, [Dimension::AngularDamping, Dimension::LinearDamping])
     }
 
     /// What the gear of a joint is measured as.
     pub fn gear(motion: Motion) -> Dimension {
-        match motion {
-            Motion::Revolute => Dimension::Ratio,
-            Motion::Prismatic => Dimension::TurnPerLength,
-        }
+        Dimension::by(motion, [Dimension::Ratio, Dimension::TurnPerLength])
     }
 
     /// What the travel of a joint is measured as.
     pub(crate) fn displacement(motion: Motion) -> Dimension {
-        match motion {
-            Motion::Revolute => Dimension::Angle,
-            Motion::Prismatic => Dimension::Length,
-        }
+        Dimension::by(motion, [Dimension::Angle, Dimension::Length])
     }
 
     /// The SI unit in which the table keeps the quantity; empty for a pure number.
     pub fn unit(self) -> &'static str {
-        match self {
-            Dimension::Length => "m",
-            Dimension::Angle => "rad",
-            Dimension::Mass => "kg",
-            Dimension::Acceleration => "m/s²",
-            Dimension::AngularStiffness => "N·m/rad",
-            Dimension::LinearStiffness => "N/m",
-            Dimension::Pressure => "Pa",
-            Dimension::Area => "m²",
-            Dimension::SecondMoment => "m⁴",
-            Dimension::Density => "kg/m³",
-            Dimension::Inertia => "kg·m²",
-            Dimension::Torque => "N·m",
-            Dimension::Force => "N",
-            Dimension::AngularDamping => "N·m·s/rad",
-            Dimension::LinearDamping => "N·s/m",
-            Dimension::TurnPerLength => "rad/m",
-            Dimension::Ratio => "",
-        }
+        self.row().0
     }
 
     pub(crate) fn powers(self) -> Powers {
-        match self {
-            Dimension::Length => [1, 0, 0, 0],
-            Dimension::Angle => [0, 0, 0, 1],
-            Dimension::Mass => [0, 1, 0, 0],
-            Dimension::Acceleration => [1, 0, -2, 0],
-            Dimension::AngularStiffness => [2, 1, -2, -1],
-            Dimension::LinearStiffness => [0, 1, -2, 0],
-            Dimension::Pressure => [-1, 1, -2, 0],
-            Dimension::Area => [2, 0, 0, 0],
-            Dimension::SecondMoment => [4, 0, 0, 0],
-            Dimension::Density => [-3, 1, 0, 0],
-            Dimension::Inertia => [2, 1, 0, 0],
-            Dimension::Torque => TORQUE,
-            Dimension::Force => [1, 1, -2, 0],
-            Dimension::AngularDamping => [2, 1, -1, -1],
-            Dimension::LinearDamping => [0, 1, -1, 0],
-            Dimension::TurnPerLength => [-1, 0, 0, 1],
-            Dimension::Ratio => [0; 4],
-        }
+        self.row().1
     }
 
     /// Whether a unit of these powers measures this quantity. Per radian may be left out: a torque stands
@@ -140,71 +118,15 @@ impl Dimension {
     }
 
     pub(crate) fn example(self) -> &'static str {
-        match self {
-            Dimension::Length => "350 mm",
-            Dimension::Angle => "90 deg",
-            Dimension::Mass => "120 kg",
-            Dimension::Acceleration => "9.80665 m/s^2",
-            Dimension::AngularStiffness => "3.8e6 N*m/rad",
-            Dimension::LinearStiffness => "2e7 N/m",
-            Dimension::Pressure => "69 GPa",
-            Dimension::Area => "24 cm^2",
-            Dimension::SecondMoment => "5.2e6 mm^4",
-            Dimension::Density => "2700 kg/m^3",
-            Dimension::Inertia => "0.35 kg*m^2",
-            Dimension::Torque => "12 N*m",
-            Dimension::Force => "80 N",
-            Dimension::AngularDamping => "5 N*m*s/rad",
-            Dimension::LinearDamping => "300 N*s/m",
-            Dimension::TurnPerLength => "628 rad/m",
-            Dimension::Ratio => "0.85",
-        }
+        self.row().2
     }
 }
 
 impl fmt::Display for Dimension {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Dimension::Length => "a length",
-            Dimension::Angle => "an angle",
-            Dimension::Mass => "a mass",
-            Dimension::Acceleration => "an acceleration",
-            Dimension::AngularStiffness => "a torque per angle",
-            Dimension::LinearStiffness => "a force per length",
-            Dimension::Pressure => "a pressure",
-            Dimension::Area => "an area",
-            Dimension::SecondMoment => "a second moment of area",
-            Dimension::Density => "a density",
-            Dimension::Inertia => "a moment of inertia",
-            Dimension::Torque => "a torque",
-            Dimension::Force => "a force",
-            Dimension::AngularDamping => "a torque per angular speed",
-            Dimension::LinearDamping => "a force per speed",
-            Dimension::TurnPerLength => "an angle per length",
-            Dimension::Ratio => "a pure number",
-        })
+        f.write_str(self.row().3)
     }
 }
-
-const ALL: [Dimension; 17] = [
-    Dimension::Length,
-    Dimension::Angle,
-    Dimension::Mass,
-    Dimension::Acceleration,
-    Dimension::AngularStiffness,
-    Dimension::LinearStiffness,
-    Dimension::Pressure,
-    Dimension::Area,
-    Dimension::SecondMoment,
-    Dimension::Density,
-    Dimension::Inertia,
-    Dimension::Torque,
-    Dimension::Force,
-    Dimension::AngularDamping,
-    Dimension::LinearDamping,
-    Dimension::TurnPerLength,
-    Dimension::Ratio,
-];
 
 const TORQUE: Powers = [2, 1, -2, 0];
 

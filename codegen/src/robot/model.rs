@@ -47,8 +47,8 @@ pub struct Robot {
     pub inverse_kinematics: Option<ClosedForm>,
 }
 
-/// One row of the table, with what hangs on it.
-#[derive(Clone, Debug, PartialEq)]
+/// One row of the table, with what hangs on it; by default a revolute joint of which nothing is told.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Joint {
     /// The row's label (`a2`); `joint 2` where the table gives none.
     pub name: String,
@@ -127,7 +127,7 @@ pub struct Section {
 }
 
 /// A fixed transform: translation, then rotation, in the frame that it begins in.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Frame {
     /// The origin that it leads to, m.
     pub translation: [Value; 3],
@@ -262,6 +262,11 @@ impl Value {
             Value::Symbol(_) => None,
         }
     }
+
+    /// The number as a double; a symbol counts as zero.
+    pub(crate) fn or_zero(&self) -> f64 {
+        self.number().map_or(0.0, Number::to_f64)
+    }
 }
 
 impl Angle {
@@ -275,6 +280,11 @@ impl Angle {
             Angle::Radians(n) => n.is_zero(),
             Angle::Symbol(_) => false,
         }
+    }
+
+    /// The angle in radians; a symbol counts as zero.
+    pub(crate) fn or_zero(&self) -> f64 {
+        self.radians().unwrap_or_default()
     }
 
     /// The angle in radians, unless it is symbolic.
@@ -311,38 +321,15 @@ impl Default for Robot {
     }
 }
 
-impl Default for Joint {
-    /// A revolute joint of which nothing is told.
-    fn default() -> Self {
-        Joint {
-            name: String::new(),
-            motion: Motion::Revolute,
-            theta: Angle::ZERO,
-            d: Value::ZERO,
-            a: Value::ZERO,
-            alpha: Angle::ZERO,
-            beta: Angle::ZERO,
-            stiffness: None,
-            mass: None,
-            com: [const { Value::ZERO }; 3],
-            inertia: None,
-            drive: Drive::default(),
-            limits: None,
-            source: None,
-            beam: None,
-        }
-    }
-}
-
 impl Default for Value {
     fn default() -> Self {
         Value::ZERO
     }
 }
 
-impl Default for Frame {
+impl Default for Angle {
     fn default() -> Self {
-        Frame { translation: [const { Value::ZERO }; 3], rotation: [const { Angle::ZERO }; 3] }
+        Angle::ZERO
     }
 }
 

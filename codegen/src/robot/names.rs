@@ -61,66 +61,13 @@ const KEYWORDS: [&str; 52] = [
     "unsafe", "unsized", "use", "virtual", "where", "while", "yield",
 ];
 
-#[cfg(test)]
+#[cfg(all(test, feature = "macro"))]
 mod tests {
-    use super::super::Robot;
-
-    fn messages(lines: &str) -> Vec<String> {
-        let text = format!(
-            "name = \"x\"\nconvention = \"modified\"\n[[joint]]\ntype = \"revolute\"\n{lines}\n"
-        );
-        match Robot::from_toml(&text, "x.toml") {
-            Ok(_) => Vec::new(),
-            Err(error) => error.errors.into_iter().map(|e| e.message).collect(),
-        }
-    }
-
-    #[test]
-    fn a_parameter_is_one_quantity() {
-        assert_eq!(
-            messages("theta = \"x\"\na = \"x\"\nmass = \"x\""),
-            [
-                "`x` is an angle where it first stands, and a length here",
-                "`x` is an angle where it first stands, and a mass here"
-            ]
-        );
-        assert!(messages("d = \"x\"\na = \"x\"\nmass = 1\ncom = [\"x\", 0, 0]").is_empty());
-    }
-
     /// What syn reads as a name is one, but for `gen`, which it does not know as a keyword.
-    #[cfg(feature = "macro")]
     #[test]
     fn keywords_are_those_of_rust() {
         for name in super::KEYWORDS.into_iter().filter(|name| *name != "gen") {
             assert!(syn::parse_str::<syn::Ident>(name).is_err(), "{name}");
         }
-    }
-
-    #[test]
-    fn a_parameter_can_be_a_field() {
-        assert!(messages("a = \"L1\"\nd = \"d_1\"\ntheta = \"tE\"").is_empty());
-        let refused = |name: &str| messages(&format!("a = \"{name}\""));
-        assert_eq!(
-            refused("q"),
-            ["`q` is the joint variable: it stands in theta or d, nowhere else"]
-        );
-        assert_eq!(refused("w"), ["`w` is the wrench in the generated code"]);
-        assert_eq!(refused("type"), ["`type` is a keyword of Rust"]);
-        assert_eq!(refused("Self"), ["`Self` is a keyword of Rust"]);
-        assert_eq!(refused("_a"), ["`_a` cannot be a parameter's name"]);
-        assert_eq!(refused("länge"), ["`länge` cannot be a parameter's name"]);
-        // One mistake, however often the name is used.
-        assert_eq!(messages("a = \"fn\"\nd = \"fn\""), ["`fn` is a keyword of Rust"]);
-    }
-
-    #[test]
-    fn joints_and_markers_have_names_of_their_own() {
-        assert_eq!(
-            messages(
-                "name = \"a\"\n[[joint]]\ntype = \"revolute\"\nname = \"a\"\n\
-                 [[marker]]\nname = \"m\"\n[[marker]]\nname = \"m\"\n[[marker]]\nname = \"\""
-            ),
-            ["two joints are called `a`", "two markers are called `m`", "a marker without a name"]
-        );
     }
 }

@@ -6,7 +6,6 @@ use num_rational::Ratio;
 use super::closed_form::{ClosedForm, Family, Position};
 use super::frames::Refused;
 use super::model::{Angle, Motion, Output, Robot, Value};
-use crate::number::Number;
 
 /// What of an arm's size, and of a radian, an entry may differ from that of the nearest table. Makers build to a tenth of
 /// it; at all of it, steps still lead from the one arm to the other (`codegen/tests/inverse/steps.rs`).
@@ -130,9 +129,8 @@ impl Robot {
         let each = rows.flat_map(|(a, b)| {
             let lengths = [(&a.a, &b.a), (&a.d, &b.d)];
             let angles = [(&a.alpha, &b.alpha), (&a.beta, &b.beta)];
-            let lengths = lengths.map(|(a, b)| (metres(a) - metres(b)) / size);
-            let angles = angles
-                .map(|(a, b)| a.radians().unwrap_or_default() - b.radians().unwrap_or_default());
+            let lengths = lengths.map(|(a, b)| (a.or_zero() - b.or_zero()) / size);
+            let angles = angles.map(|(a, b)| a.or_zero() - b.or_zero());
             lengths.into_iter().chain(angles)
         });
         each.fold(0.0, |most, off| most.max(off.abs()))
@@ -141,7 +139,7 @@ impl Robot {
     /// The sum of the table's lengths, m; parameters count as none.
     pub(crate) fn size(&self) -> f64 {
         let lengths = self.joints.iter().flat_map(|joint| [&joint.a, &joint.d]);
-        lengths.map(|length| metres(length).abs()).sum()
+        lengths.map(|length| length.or_zero().abs()).sum()
     }
 }
 
@@ -152,8 +150,4 @@ fn snap(angle: &mut Angle, within: f64) {
     if (radians - quarters * core::f64::consts::FRAC_PI_2).abs() < within {
         *angle = Angle::Pi(Ratio::new(quarters as i64, 2));
     }
-}
-
-fn metres(value: &Value) -> f64 {
-    value.number().map_or(0.0, Number::to_f64)
 }

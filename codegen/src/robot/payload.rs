@@ -2,7 +2,7 @@
 
 use super::frames::Refused;
 use super::model::{Angle, Frame as Placed, Joint, Payload, Robot, Value};
-use super::space::{Frame, norm, times};
+use super::space::Frame;
 use super::suggest::advice;
 use crate::number::Number;
 
@@ -110,12 +110,8 @@ const UPRIGHT: [Vector; 3] = {
 /// The columns of a rotation, right angles exactly.
 fn axes(rotation: &[Angle; 3]) -> [Vector; 3] {
     // The readers let no symbol stand in a frame's rotation.
-    let vector = rotation.each_ref().map(|angle| angle.radians().unwrap_or(0.0));
-    let angle = norm(vector);
-    if angle == 0.0 {
-        return UPRIGHT;
-    }
-    Frame::turned(times(vector, 1.0 / angle), angle).axes.map(|axis| axis.map(Number::cosine))
+    let turned = Frame::by_rotation(rotation.each_ref().map(Angle::or_zero));
+    turned.axes.map(|axis| axis.map(Number::cosine))
 }
 
 fn turned(axes: &[Vector; 3], v: Vector) -> Vector {

@@ -11,7 +11,7 @@ use crate::number::Number;
 /// The largest denominator of π that a double is compared with.
 const LARGEST_DENOMINATOR: i64 = 12;
 /// Denominators at which rounded decimals are recognised.
-const ROUNDED_DENOMINATORS: [i64; 5] = [1, 2, 3, 4, 6];
+pub(crate) const ROUNDED_DENOMINATORS: [i64; 5] = [1, 2, 3, 4, 6];
 /// Beyond this many radians no double is taken for a multiple of π: their spacing grows.
 const LARGEST_ANGLE: f64 = 100.0;
 /// Bounds of an exact multiple's parts: a millionth of a degree, and sums that still fit 64 bits.

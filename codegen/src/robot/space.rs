@@ -48,6 +48,15 @@ impl Frame {
         Frame { axes: Frame::IDENTITY.axes.map(image), origin: [0.0; 3] }
     }
 
+    /// Turned by a rotation vector.
+    pub fn by_rotation(vector: Vector) -> Frame {
+        let angle = norm(vector);
+        if angle == 0.0 {
+            return Frame::IDENTITY;
+        }
+        Frame::turned(times(vector, 1.0 / angle), angle)
+    }
+
     /// Moved.
     pub fn moved(by: Vector) -> Frame {
         Frame { origin: by, ..Frame::IDENTITY }

@@ -193,19 +193,10 @@ impl<L: Place> Reader<'_, L> {
                 to.is_some()
             }
             Slot::Vector(to) => put(to, self.values(node, "[x, y, z]", cell)),
-            Slot::MaybeVector(to) => {
-                *to = self.values(node, "[x, y, z]", cell);
-                to.is_some()
-            }
-            Slot::Tensor(to) => {
-                *to = self.values(node, TENSOR, cell);
-                to.is_some()
-            }
+            Slot::MaybeVector(to) => set(to, self.values(node, "[x, y, z]", cell)),
+            Slot::Tensor(to) => set(to, self.values(node, TENSOR, cell)),
             Slot::Rotation(to) => put(to, self.rotation(node, cell)),
-            Slot::Limits(to, _) => {
-                *to = self.limits(node, cell);
-                to.is_some()
-            }
+            Slot::Limits(to, _) => set(to, self.limits(node, cell)),
             other => self.fill_other(other, node),
         }
     }
@@ -214,19 +205,13 @@ impl<L: Place> Reader<'_, L> {
     fn fill_other(&mut self, slot: Slot<'_>, node: &Node<L>) -> bool {
         match slot {
             Slot::Text(to) => put(to, self.text(node)),
-            Slot::MaybeText(to) => {
-                *to = self.text(node);
-                to.is_some()
-            }
+            Slot::MaybeText(to) => set(to, self.text(node)),
             Slot::Convention(to) => put(to, self.choice(node, &CONVENTIONS)),
             Slot::Motion(to) => {
                 self.motion = self.choice(node, &MOTIONS);
                 put(to, self.motion)
             }
-            Slot::Side(to) => {
-                *to = self.choice(node, &SIDES);
-                to.is_some()
-            }
+            Slot::Side(to) => set(to, self.choice(node, &SIDES)),
             Slot::Row(to) => put(to, self.row(node)),
             Slot::Section(to) => put(to, section::read(self, node)),
             Slot::Beam(to) => {
@@ -378,6 +363,12 @@ fn said_absent<T, L>(field: &Field<T>, node: &Node<L>) -> bool {
     field.word.is_some() && word == field.word
 }
 
+/// Puts what was read in its place; whether it could be read.
 fn put<T>(to: &mut T, read: Option<T>) -> bool {
     read.map(|read| *to = read).is_some()
+}
+
+fn set<T>(to: &mut Option<T>, read: Option<T>) -> bool {
+    *to = read;
+    to.is_some()
 }

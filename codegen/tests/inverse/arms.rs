@@ -1,11 +1,11 @@
 //! Arms with a closed form: those of the collection, and random ones of each family.
 
-use nalgebra::{Isometry3, Matrix3, Translation3, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use stiffarm_codegen::derive::{Program, inverse};
 use stiffarm_codegen::expr::{Expr, Symbol};
 use stiffarm_codegen::robot::{ClosedForm, Frame, Motion, Robot, Value};
 use stiffarm_draws::Draws;
-use stiffarm_kernels::generic;
+use stiffarm_kernels::{Pose, generic};
 
 /// An arm, its closed form as a graph, and the reference implementation of its forward kinematics.
 pub struct Arm {
@@ -75,11 +75,9 @@ impl Arm {
 
     /// All branches at a pose, near joint values.
     pub fn branches(&self, pose: &Isometry3<f64>, near: &[f64]) -> Vec<Branch> {
-        let rotation = pose.rotation.to_rotation_matrix();
-        let target: Vec<f64> =
-            rotation.matrix().iter().chain(pose.translation.vector.iter()).copied().collect();
+        let target = Pose::from(*pose).columns();
         let value = |symbol: &Symbol| match symbol {
-            Symbol::Own { entry, .. } => target[*entry],
+            Symbol::Own { entry, .. } => target.as_flattened()[*entry],
             Symbol::Joint(joint) => near[*joint],
             other => panic!("{other:?}"),
         };
@@ -120,13 +118,7 @@ pub fn reference(robot: &Robot) -> generic::Arm {
         a: number(&row.a),
         alpha: row.alpha.radians().expect("a number"),
         beta: row.beta.radians().expect("a number"),
-        compliance: 0.0,
-        mass: 0.0,
-        com: Vector3::zeros(),
-        inertia: Matrix3::zeros(),
-        drive: generic::Drive::default(),
-        limits: None,
-        beam: None,
+        ..generic::Joint::default()
     });
     generic::Arm {
         name: robot.name.clone(),
@@ -134,8 +126,7 @@ pub fn reference(robot: &Robot) -> generic::Arm {
         joints: joints.collect(),
         base: isometry(&robot.base),
         tool: isometry(&robot.tool),
-        tool_rotation_vector: Vector3::zeros(),
-        gravity: Vector3::zeros(),
+        ..generic::Arm::default()
     }
 }
 

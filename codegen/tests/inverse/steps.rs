@@ -38,12 +38,7 @@ fn missed(by: f64, draws: &mut Draws) -> (usize, usize) {
             for _ in 0..40 {
                 let q: [f64; 6] = draws.array(-3.1, 3.1);
                 let at = forward.pose(&q);
-                let rotation = at.rotation.to_rotation_matrix();
-                let column = |k: usize| core::array::from_fn(|row| rotation[(row, k)]);
-                let pose = Pose {
-                    rotation: [column(0), column(1), column(2)],
-                    position: at.translation.vector.into(),
-                };
+                let pose = Pose::from(at);
                 let begin = nearest_branch(arm.closed_form(&pose, &q), &q, &[None; 6]);
                 let begin = begin.expect("a branch").q;
                 let (found, [distance, tilt]) =
@@ -98,12 +93,7 @@ fn an_arm_that_grows_takes_steps() {
     let (q, pose) = ([0.3, 1.0, -0.4, 0.2, 0.6, -0.5], reference(&robot));
     let mut at = pose.pose(&q);
     at.translation.vector *= 1.0 + 20.0 * 12e-6;
-    let rotation = at.rotation.to_rotation_matrix();
-    let column = |k: usize| core::array::from_fn(|row| rotation[(row, k)]);
-    let pose = Pose {
-        rotation: [column(0), column(1), column(2)],
-        position: at.translation.vector.into(),
-    };
+    let pose = Pose::from(at);
     let found = arm.solutions(&pose, &q, (None, Steps::MOST)).into_iter();
     let found = found.filter(|branch| branch.distance < 1e-9 && branch.tilt < 1e-9);
     let nearest = nearest_branch(found, &q, &[None; 6]).expect("the posture").q;

@@ -8,8 +8,8 @@ use nalgebra::{Isometry3, Matrix3, Vector3};
 pub use crate::Convention;
 use crate::Motion;
 
-/// A serial arm: its Denavit-Hartenberg table and what hangs on it.
-#[derive(Clone, Debug, PartialEq)]
+/// A serial arm: its Denavit-Hartenberg table and what hangs on it. By default it has no joints, and no weight.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Arm {
     /// The arm's name.
     pub name: String,
@@ -28,8 +28,8 @@ pub struct Arm {
     pub gravity: Vector3<f64>,
 }
 
-/// One row of the table.
-#[derive(Clone, Debug, PartialEq)]
+/// One row of the table. By default it is a rigid joint that turns, without length or mass.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Joint {
     /// Revolute or prismatic.
     pub motion: Motion,

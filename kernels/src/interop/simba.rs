@@ -12,28 +12,22 @@ use crate::Scalar;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Field<T>(pub T);
 
-impl<T: SimdRealField + Copy> Add for Field<T> {
-    type Output = Self;
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        Field(self.0 + other.0)
-    }
+macro_rules! operators {
+    ($($trait:ident, $function:ident;)*) => {$(
+        impl<T: SimdRealField + Copy> $trait for Field<T> {
+            type Output = Self;
+            #[inline(always)]
+            fn $function(self, other: Self) -> Self {
+                Field($trait::$function(self.0, other.0))
+            }
+        }
+    )*};
 }
 
-impl<T: SimdRealField + Copy> Sub for Field<T> {
-    type Output = Self;
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        Field(self.0 - other.0)
-    }
-}
-
-impl<T: SimdRealField + Copy> Mul for Field<T> {
-    type Output = Self;
-    #[inline(always)]
-    fn mul(self, other: Self) -> Self {
-        Field(self.0 * other.0)
-    }
+operators! {
+    Add, add;
+    Sub, sub;
+    Mul, mul;
 }
 
 impl<T: SimdRealField + Copy> Neg for Field<T> {

@@ -2,11 +2,6 @@
 
 use stiffarm_kernels::Scalar;
 
-fn sin_cos(x: f64) -> (f64, f64) {
-    let ([s], [c]) = f64::sin_cos_all([x]);
-    (s, c)
-}
-
 /// Spacing of the doubles around `x`.
 fn ulp(x: f64) -> f64 {
     let x = x.abs().max(f64::MIN_POSITIVE);
@@ -69,34 +64,7 @@ fn zero_is_exact_and_the_functions_are_odd_and_even() {
     }
 }
 
-#[test]
-fn an_array_is_its_angles_one_by_one() {
-    fn check<const M: usize>() {
-        let angles: [f64; M] = core::array::from_fn(|k| 0.7 * k as f64 * k as f64 - 3.0);
-        let (sines, cosines) = f64::sin_cos_all(angles);
-        for ((x, s), c) in angles.into_iter().zip(sines).zip(cosines) {
-            assert_eq!(sin_cos(x), (s, c));
-        }
-    }
-    check::<0>();
-    check::<1>();
-    check::<2>();
-    check::<3>();
-    check::<4>();
-    check::<5>();
-    check::<6>();
-    check::<7>();
-    check::<9>();
-    check::<40>();
-}
-
-#[test]
-fn what_is_no_number_gives_none() {
-    for x in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -f64::NAN] {
-        let (s, c) = sin_cos(x);
-        assert!(s.is_nan() && c.is_nan(), "{x}: {s} {c}");
-    }
-}
+of_every_precision!(f64, 0, 1, 2, 3, 4, 5, 6, 7, 9, 40);
 
 #[cfg(not(feature = "libm"))]
 #[test]

@@ -2,11 +2,6 @@
 
 use stiffarm_kernels::Scalar;
 
-fn sin_cos(x: f32) -> (f32, f32) {
-    let ([s], [c]) = f32::sin_cos_all([x]);
-    (s, c)
-}
-
 /// How far the pair of an angle is from the true one.
 fn error(x: f32) -> f64 {
     let (s, c) = sin_cos(x);
@@ -60,31 +55,7 @@ fn zero_is_exact_and_tiny_angles_are_their_sines() {
     }
 }
 
-#[test]
-fn an_array_is_its_angles_one_by_one() {
-    fn check<const M: usize>() {
-        let angles: [f32; M] = core::array::from_fn(|k| 0.7 * k as f32 * k as f32 - 3.0);
-        let (sines, cosines) = f32::sin_cos_all(angles);
-        for ((x, s), c) in angles.into_iter().zip(sines).zip(cosines) {
-            assert_eq!(sin_cos(x), (s, c));
-        }
-    }
-    check::<0>();
-    check::<1>();
-    check::<4>();
-    check::<5>();
-    check::<6>();
-    check::<8>();
-    check::<11>();
-}
-
-#[test]
-fn what_is_no_number_gives_none() {
-    for x in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -f32::NAN] {
-        let (s, c) = sin_cos(x);
-        assert!(s.is_nan() && c.is_nan(), "{x}: {s} {c}");
-    }
-}
+of_every_precision!(f32, 0, 1, 4, 5, 6, 8, 11);
 
 #[cfg(not(feature = "libm"))]
 #[test]

@@ -97,35 +97,31 @@ fn wanted_names(search: &Search<'_>) -> Inventory {
     names
 }
 
-/// A sign together with a name of the term that it begins, as one change.
-fn compounds(single: &[Edit]) -> Vec<Edit> {
+/// Each sign with each name of the term that it begins.
+fn terms(single: &[Edit]) -> impl Iterator<Item = [&Edit; 2]> {
     let place = |e: &Edit| e.parts[0].0.start;
-    let mut out = Vec::new();
-    for sign in single.iter().filter(|e| e.slip == Slip::Sign) {
+    let signs = single.iter().filter(|e| e.slip == Slip::Sign);
+    signs.flat_map(move |sign| {
         let names = single.iter().filter(|e| matches!(e.slip, Slip::Function | Slip::Index));
-        for name in names.filter(|e| (place(sign) + 1..place(sign) + 5).contains(&place(e))) {
-            let mut both = sign.clone();
-            both.parts.extend(name.parts.iter().cloned());
-            both.what = format!("{}, {}: {}", sign.what, name.slip.name(), name.what);
-            out.push(both);
-        }
-    }
-    out
+        let near = move |e: &&Edit| (place(sign) + 1..place(sign) + 5).contains(&place(e));
+        names.filter(near).map(move |name| [sign, name])
+    })
 }
 
-/// A sign and a name of the term that it begins: the two multiply, so that their effects do not
-/// add.
+/// A sign together with a name of its term, as one change.
+fn compounds(single: &[Edit]) -> Vec<Edit> {
+    let both = |[sign, name]: [&Edit; 2]| {
+        let mut both = sign.clone();
+        both.parts.extend(name.parts.iter().cloned());
+        both.what = format!("{}, {}: {}", sign.what, name.slip.name(), name.what);
+        both
+    };
+    terms(single).map(both).collect()
+}
+
+/// A sign and a name of its term: the two multiply, so that their effects do not add.
 fn same_term<'e>(single: &'e [Edit], accept: &dyn Fn(&[&Edit]) -> bool) -> Option<Vec<&'e Edit>> {
-    let place = |e: &Edit| e.parts[0].0.start;
-    for sign in single.iter().filter(|e| e.slip == Slip::Sign) {
-        let names = single.iter().filter(|e| matches!(e.slip, Slip::Function | Slip::Index));
-        for name in names.filter(|e| (place(sign) + 1..place(sign) + 5).contains(&place(e))) {
-            if accept(&[sign, name]) {
-                return Some(vec![sign, name]);
-            }
-        }
-    }
-    None
+    terms(single).find(|both| accept(both)).map(Vec::from)
 }
 
 /// The first two that are accepted together.

@@ -2,10 +2,9 @@
 
 use std::collections::HashMap;
 
-use nalgebra::{Isometry3, Vector3, Vector6};
+use nalgebra::{Vector3, Vector6};
 use stiffarm_draws::Draws;
-use stiffarm_kernels::Motion;
-use stiffarm_kernels::generic::{Arm, Beam, Convention, Joint};
+use stiffarm_kernels::generic::{Arm, Beam, Joint};
 
 /// Links that bend, in any one system of units.
 #[derive(Clone, Copy, Debug)]
@@ -69,33 +68,11 @@ fn row(a: f64, alpha: f64, d: f64, section: Option<(f64, f64)>) -> Joint {
         density: weight / AREA,
         shear_coefficient: None,
     });
-    Joint {
-        motion: Motion::Revolute,
-        theta: 0.0,
-        d,
-        a,
-        alpha: alpha.to_radians(),
-        beta: 0.0,
-        compliance: 0.0,
-        mass: 0.0,
-        com: Vector3::zeros(),
-        inertia: Default::default(),
-        drive: Default::default(),
-        limits: None,
-        beam,
-    }
+    Joint { d, a, alpha: alpha.to_radians(), beam, ..Joint::default() }
 }
 
 fn arm(joints: Vec<Joint>, gravity: Vector3<f64>) -> Arm {
-    Arm {
-        name: "Lin, Chiang & Cui".to_owned(),
-        convention: Convention::Standard,
-        joints,
-        base: Isometry3::identity(),
-        tool: Isometry3::identity(),
-        tool_rotation_vector: Vector3::zeros(),
-        gravity,
-    }
+    Arm { name: "Lin, Chiang & Cui".to_owned(), joints, gravity, ..Arm::default() }
 }
 
 /// The planar arm of two links.

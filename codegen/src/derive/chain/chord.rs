@@ -61,12 +61,8 @@ fn magnitude(chain: &mut Chain, x: Expr) -> Expr {
 /// Of a length that has grown with all others the table's.
 fn table_s(g: &Graph, x: Expr) -> Option<Expr> {
     let Node::Mul(a, b) = g.node(x) else { return None };
-    let is_growth = |e: Expr| match g.node(e) {
-        Node::Symbol(s) => *g.symbol_of(s) == Symbol::Growth,
-        _ => false,
-    };
-    let number = matches!(g.node(a), Node::Number(_));
-    (number && is_growth(b)).then(|| a.signed(x.is_negative()))
+    let scaled = g.number_of(a).is_some() && g.symbol_at(b.node()) == Some(&Symbol::Growth);
+    scaled.then(|| a.signed(x.is_negative()))
 }
 
 /// What two lengths have grown by, and the table's.

@@ -153,7 +153,12 @@ impl<'r> Chain<'r> {
         let base = self.axes(0);
         let own = base.map(|axis| self.g.dot3(axis, v));
         let Some(world) = self.base_axes() else { return own };
-        combined(&mut self.g, own, world)
+        self.g.along3(own, world)
+    }
+
+    /// A twist, as [vectors](Chain::in_base).
+    pub fn twist_in_base(&mut self, (v, w): Twist) -> Twist {
+        (self.in_base(v), self.in_base(w))
     }
 
     /// A place told from the base, told from the world in which the base stands.
@@ -181,7 +186,7 @@ impl<'r> Chain<'r> {
     /// A vector given in the base's own axes, in the working frame.
     pub fn of_base(&mut self, v: Vec3) -> Vec3 {
         let base = self.axes(0);
-        combined(&mut self.g, v, base)
+        self.g.along3(v, base)
     }
 
     /// A cell of the table.
@@ -213,7 +218,7 @@ impl<'r> Chain<'r> {
         let frame = self.axes(s);
         matrix.map(|column| {
             let column = column.map(|c| self.g.number(c));
-            combined(&mut self.g, column, frame)
+            self.g.along3(column, frame)
         })
     }
 
@@ -226,11 +231,4 @@ impl<'r> Chain<'r> {
             self.g.name3(axis, name);
         }
     }
-}
-
-/// The vector of these components along some axes.
-fn combined(g: &mut Graph, components: Vec3, axes: [Vec3; 3]) -> Vec3 {
-    let parts: [Vec3; 3] = core::array::from_fn(|k| g.scale3(components[k], axes[k]));
-    let sum = g.add3(parts[0], parts[1]);
-    g.add3(sum, parts[2])
 }

@@ -2,7 +2,7 @@
 
 use super::layout::Chain;
 use super::mass::masses;
-use crate::expr::{Expr, Graph, Vec3, parallel3};
+use crate::expr::{Expr, Graph, Twist, Vec3, parallel3};
 
 /// One translation: `length · axis` in the working frame.
 #[derive(Clone, Copy, Debug)]
@@ -103,7 +103,16 @@ impl Levers {
         self.extended(g, from, &[], except)
     }
 
-    /// The same, continued inwards by further translations.
+    /// What a turn about an axis at `from`, or a slide along it, does at the levers' end.
+    pub fn twist(&self, g: &mut Graph, from: Point, axis: Vec3, turns: bool) -> Twist {
+        if !turns {
+            return (axis, [Expr::ZERO; 3]);
+        }
+        let lever = self.lever(g, from, Some(axis));
+        (g.cross3(axis, lever), axis)
+    }
+
+    /// The same as [`lever`](Levers::lever), continued inwards by further translations.
     pub fn extended(
         &self,
         g: &mut Graph,

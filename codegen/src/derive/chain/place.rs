@@ -84,9 +84,7 @@ impl Place {
         let [x, y, z] = v;
         let turn = self.turn.sin_cos(g);
         let [x, y] = g.turn2(turn, [x, y]);
-        let parts = [(x, 0), (y, 1), (z, 2)].map(|(part, k)| g.scale3(part, self.axes[k]));
-        let sum = g.add3(parts[0], parts[1]);
-        g.add3(sum, parts[2])
+        g.along3([x, y, z], self.axes)
     }
 
     /// The axes, the pending turn carried out.

@@ -52,14 +52,8 @@ fn before(chain: &mut Chain, tip: Vec3, twists: &mut [Option<Twist>]) {
     for (row, twist) in twists.iter_mut().enumerate() {
         let step = chain.joint_step(row);
         if step < chain.cut {
-            let z = chain.z(step);
-            *twist = Some(match chain.revolute(row) {
-                true => {
-                    let lever = inside.lever(&mut chain.g, Point::Step(step), Some(z));
-                    (chain.g.cross3(z, lever), z)
-                }
-                false => (z, [Expr::ZERO; 3]),
-            });
+            let (z, turns) = (chain.z(step), chain.revolute(row));
+            *twist = Some(inside.twist(&mut chain.g, Point::Step(step), z, turns));
         }
     }
 }

@@ -1,7 +1,7 @@
 //! The constant rotations of tool and base.
 
 use crate::number::Number;
-use crate::robot::Frame;
+use crate::robot::{Angle, Frame};
 
 /// A frame's rotation matrix, columns, from its rotation vector (Rodrigues).
 pub fn frame_rotation(frame: &Frame) -> [[Number; 3]; 3] {
@@ -42,7 +42,7 @@ fn norm(v: [f64; 3]) -> f64 {
 
 fn rotation_vector(frame: &Frame) -> [f64; 3] {
     // The readers let no symbol stand in a frame's rotation.
-    frame.rotation.each_ref().map(|angle| angle.radians().unwrap_or(0.0))
+    frame.rotation.each_ref().map(Angle::or_zero)
 }
 
 /// Columns of `I + first [v]× + second [v]×²`.

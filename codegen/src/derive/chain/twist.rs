@@ -44,23 +44,18 @@ pub fn seen_from(chain: &mut Chain, row: usize) -> Vec<Twist> {
     let seen = ROW * row;
     let twist = |chain: &mut Chain, joint: usize| {
         let (step, z) = (chain.joint_step(joint), chain.joint_axis(joint));
-        if !chain.revolute(joint) {
-            return (z, [Expr::ZERO; 3]);
-        }
-        let (inner, outer) = (step.min(seen), step.max(seen));
-        let from = if inner == step { Point::Step(step) } else { Point::Boundary(seen) };
-        let levers = Levers::inside(chain, outer, [Expr::ZERO; 3]);
-        let lever = levers.lever(&mut chain.g, from, Some(z));
-        let v = chain.g.cross3(z, lever);
-        (if inner == step { v } else { negate3(v) }, z)
+        let (inside, turns) = (step <= seen, chain.revolute(joint));
+        let from = if inside { Point::Step(step) } else { Point::Boundary(seen) };
+        let levers = Levers::inside(chain, step.max(seen), [Expr::ZERO; 3]);
+        let (v, w) = levers.twist(&mut chain.g, from, z, turns);
+        (if inside || !turns { v } else { negate3(v) }, w)
     };
     (0..chain.dof()).map(|joint| twist(chain, joint)).collect()
 }
 
 /// The joints' twists in base axes.
 pub fn base_twists(chain: &mut Chain) -> Vec<Twist> {
-    let twists = twists(chain);
-    twists.into_iter().map(|(v, w)| (chain.in_base(v), chain.in_base(w))).collect()
+    twists(chain).into_iter().map(|twist| chain.twist_in_base(twist)).collect()
 }
 
 /// Twists as columns of six.

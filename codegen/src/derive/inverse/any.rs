@@ -69,12 +69,5 @@ pub fn any_arm(robot: &Robot, form: ClosedForm) -> Box<dyn AnyArm> {
         let limits = core::array::from_fn(|k| robot.joints.get(k).and_then(|joint| joint.limits));
         Box::new(Sized { arm: AsItIs::<N>::new(robot, form, Given::default()), limits })
     }
-    match robot.dof() {
-        2 => of::<2>(robot, form),
-        3 => of::<3>(robot, form),
-        4 => of::<4>(robot, form),
-        5 => of::<5>(robot, form),
-        7 => of::<7>(robot, form),
-        _ => of::<6>(robot, form),
-    }
+    by_joints!(robot.dof(), of(robot, form))
 }

@@ -13,31 +13,17 @@ pub fn gives(robot: &Robot) -> Program {
     let way = ways::best(robot, DEFLECTION);
     let mut chain = way.lay_out(robot);
     let [joints, tool] = outputs::gives(&mut chain);
-    let joints = (
-        quantity(
-            "joints",
-            "rad",
-            "What each joint's spring gives, with its hardening and what friction winds up"
-                .to_owned(),
-            Size::Vector(robot.dof()),
-        ),
-        joints,
-    );
-    let tool = (
-        quantity(
-            "tool",
-            "m, rad",
-            "Displacement of the tool by links, bearings and the base, to first order".to_owned(),
-            Size::Vector(6),
-        ),
-        tool,
-    );
-    let blocks = [joints, tool]
-        .into_iter()
-        .map(|(quantity, entries)| Block { held: Held::Own(quantity), entries });
+    let springs = "What each joint's spring gives, with its hardening and what friction winds up";
+    let rest = "Displacement of the tool by links, bearings and the base, to first order";
+    let results = [
+        (quantity("joints", "rad", springs.to_owned(), Size::Vector(robot.dof())), joints),
+        (quantity("tool", "m, rad", rest.to_owned(), Size::Vector(6)), tool),
+    ];
+    let blocks =
+        results.map(|(quantity, entries)| Block { held: Held::Own(quantity), entries }).to_vec();
     Program {
         graph: chain.g,
-        blocks: blocks.collect(),
+        blocks,
         solves: Vec::new(),
         cut: way.cut(),
         dof: robot.dof(),

@@ -8,6 +8,20 @@
 //! Each later angle is worked out from the values that the earlier ones have, roundings and all: an angle that the pose
 //! barely determines is wrong alone, and the pose that the angles give is not.
 
+/// A function of the number of joints, for those that a closed form may have.
+macro_rules! by_joints {
+    ($dof:expr, $of:ident($($given:expr),*)) => {
+        match $dof {
+            2 => $of::<2>($($given),*),
+            3 => $of::<3>($($given),*),
+            4 => $of::<4>($($given),*),
+            5 => $of::<5>($($given),*),
+            7 => $of::<7>($($given),*),
+            _ => $of::<6>($($given),*),
+        }
+    };
+}
+
 mod any;
 mod displacement;
 mod gives;
@@ -21,24 +35,34 @@ mod position;
 mod sliding;
 mod steps;
 mod subproblem;
+mod term;
 mod wrist;
 
 pub use any::{AnyArm, Branch as AnyBranch, any_arm};
 pub use gives::gives;
 use layout::{Layout, Value};
 pub use steps::{AsItIs, steps};
+use term::{Sheet, Term};
 
 use super::own::{Held, Own, OwnInput, Quantity, Size};
 use super::program::{Block, Program};
 use super::readings::Readings;
-use crate::expr::Expr;
+use crate::expr::{Expr, Graph};
 use crate::robot::{CLOSED_FORM, ClosedForm, Family, INVERSE_KINEMATICS, Motion, Robot};
 
 /// Where the joints of one branch stand, and how far its pose is from what was asked: m, and the length between unit vectors.
-struct Branch {
-    joints: Vec<Value>,
-    distance: Expr,
-    tilt: Expr,
+struct Branch<'g> {
+    joints: Vec<Value<'g>>,
+    distance: Term<'g>,
+    tilt: Term<'g>,
+}
+
+impl<'g> Branch<'g> {
+    /// Where joints stand, which miss the target by what they do.
+    fn missed(arm: &Layout<'g>, joints: Vec<Value<'g>>) -> Branch<'g> {
+        let (distance, tilt) = arm.missed(&joints);
+        Branch { joints, distance, tilt }
+    }
 }
 
 /// A result of a function of the inverse.
@@ -51,62 +75,41 @@ fn quantity(name: &str, unit: &str, sentence: String, size: Size) -> Quantity {
 /// [nearest table](Robot::nearest_closed_form): it is then only where the arm's own inverse begins, and called so.
 pub fn inverse(robot: &Robot, form: ClosedForm) -> Program {
     let exact = robot.is_as_its_table() && robot.closed_form().is_ok();
-    let mut arm = Layout::new(&robot.nearest(form), form);
-    let branches = match form.family {
+    let sheet = Sheet::new(Graph::new());
+    let arm = &Layout::new(&sheet, &robot.nearest(form), form);
+    let branches: Vec<Branch> = match form.family {
         Family::Wrist { position, behind } => {
-            let positions = position::positions(&mut arm, position, behind).into_iter();
+            let positions = position::positions(arm, position, behind).into_iter();
             match behind {
-                3 => positions.flat_map(|at| wrist::wrists(&mut arm, at)).collect(),
-                _ => positions.map(|at| wrist::short(&mut arm, at, behind)).collect(),
+                3 => positions.flat_map(|at| wrist::wrists(arm, at)).collect(),
+                _ => positions.map(|at| wrist::short(arm, at, behind)).collect(),
             }
         }
-        Family::ThreeParallel { behind: 2, .. } => parallel::branches(&mut arm),
+        Family::ThreeParallel { behind: 2, .. } => parallel::branches(arm),
         Family::ThreeParallel { before, behind, lift } => {
-            plane::branches(&mut arm, before, behind, lift)
+            plane::branches(arm, before, behind, lift)
         }
-        Family::TwoParallel => plane::two(&mut arm),
+        Family::TwoParallel => plane::two(arm),
     };
     let (n, count) = (robot.dof(), branches.len());
-    let mut q = Vec::with_capacity(n * count);
-    for branch in &branches {
-        q.extend(arm.joint_values(&branch.joints));
-    }
+    let q = branches.iter().flat_map(|branch| arm.joint_values(&branch.joints));
+    let q = q.map(|value| value.e).collect();
     let each = Size::Vector(count);
-    let distances = branches.iter().map(|branch| branch.distance).collect();
-    let tilts = branches.iter().map(|branch| branch.tilt).collect();
+    let distances = branches.iter().map(|branch| branch.distance.e).collect();
+    let tilts = branches.iter().map(|branch| branch.tilt.e).collect();
     let slides = robot.joints.iter().any(|joint| joint.motion == Motion::Prismatic);
     let unit = if slides { "rad (prismatic joint: m)" } else { "rad" };
-    let results = [
-        (
-            quantity("q", unit, bits(form), Size::Matrix { rows: n, columns: count }),
-            q,
-        ),
-        (
-            quantity(
-                "distance",
-                "m",
-                "How far the tool's origin is from the target's: zero but for rounding where the branch reaches it"
-                    .to_owned(),
-                each,
-            ),
-            distances,
-        ),
-        (
-            quantity(
-                "tilt",
-                "1",
-                tilt(form),
-                each,
-            ),
-            tilts,
-        ),
+    let reached = "How far the tool's origin is from the target's: zero but for rounding where the branch reaches it";
+    let results: [(Quantity, Vec<Expr>); 3] = [
+        (quantity("q", unit, bits(form), Size::Matrix { rows: n, columns: count }), q),
+        (quantity("distance", "m", reached.to_owned(), each), distances),
+        (quantity("tilt", "1", tilt(form), each), tilts),
     ];
-    let blocks = results
-        .into_iter()
-        .map(|(quantity, entries): (_, Vec<Expr>)| Block { held: Held::Own(quantity), entries });
+    let blocks =
+        results.map(|(quantity, entries)| Block { held: Held::Own(quantity), entries }).to_vec();
     Program {
-        graph: arm.g,
-        blocks: blocks.collect(),
+        graph: sheet.graph.into_inner(),
+        blocks,
         solves: Vec::new(),
         cut: 0,
         dof: robot.dof(),

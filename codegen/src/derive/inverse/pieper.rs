@@ -5,12 +5,11 @@
 //! conic that meets the circle in four points at most. Two lines through the four are one of the three degenerate conics
 //! among the sums of both, and each line meets the circle where an equation of one angle says.
 
-use super::displacement::about_x;
 use super::layout::Layout;
 use super::point::{Linear, Point};
 use super::position::free;
 use super::subproblem::{Pair, angle_between, turned, two_angles, unit};
-use crate::expr::{Expr, Graph};
+use super::term::{Term, dot};
 use crate::number::Number;
 
 /// Steps to the degenerate conic, by Laguerre's method: of 48 000 postures of random tables four steps leave 44 that are not
@@ -22,177 +21,133 @@ const STEPS: usize = 6;
 const POLISHED: usize = 3;
 
 /// Shoulder (which of both lines) and elbow as the bits of the number, from the higher.
-pub(super) fn general(arm: &mut Layout, point: &Point) -> [[Pair; 3]; 4] {
+pub(super) fn general<'g>(arm: &Layout<'g>, point: &Point<'g>) -> [[Pair<'g>; 3]; 4] {
     // Turned so, the equation has no product of the cosine and the sine.
     let turn = {
-        let all = Equation::new(arm, point);
-        let [cc, cs, ss] = all.squares(&mut arm.g);
-        let [cc, cs, ss] = [cc, cs, ss].map(|e| arm.g.evaluate(&[e], |_| f64::NAN)[0]);
+        let [cc, cs, ss] = Equation::new(arm, point).squares().map(Term::constant);
         let angle = 0.5 * libm::atan2(2.0 * cs, cc - ss);
-        let [cosine, sine] = [libm::cos(angle), libm::sin(angle)];
-        [cosine, sine].map(|x| arm.g.number(Number::cosine(x)))
+        [libm::cos(angle), libm::sin(angle)].map(|x| arm.tiny.exact(Number::cosine(x)))
     };
-    let point = &Point { c: turned(&mut arm.g, turn, point.c), ..*point };
+    let point = &Point { c: turned(turn, point.c), ..*point };
     let equation = Equation::new(arm, point);
-    let conic = equation.conic(&mut arm.g);
-    let thirds = conic.angles(&mut arm.g);
     let [rx, ry, _] = point.r;
-    thirds.map(|third| {
+    equation.conic().angles().map(|third| {
         let [fx, fy, fz] = point.f(arm, third);
-        let (free_first, free_second) = (free(arm, 0), free(arm, 1));
-        let g = &mut arm.g;
-        let to = [equation.x.at(g, third), equation.y.at(g, third)];
-        let second = angle_between(g, [fx, fy], to, free_second);
-        let [gx, gy] = turned(g, second, [fx, fy]);
-        let gz = g.add(fz, arm.d[1]);
-        let [_, y, _] = about_x(g, arm.alpha[0], [gx, gy, gz]);
-        let x = g.add(arm.a[0], gx);
-        let first = angle_between(g, [x, y], [rx, ry], free_first);
-        [first, second, turned(g, turn, third)]
+        let to = [equation.x.at(third), equation.y.at(third)];
+        let second = angle_between([fx, fy], to, free(arm, 1));
+        let [gx, gy] = turned(second, [fx, fy]);
+        let [x, y, _] = arm.link(0, [gx, gy, fz + arm.d[1]]);
+        let first = angle_between([x, y], [rx, ry], free(arm, 0));
+        [first, second, turned(turn, third)]
     })
 }
 
-impl Linear {
-    fn at(&self, g: &mut Graph, [cosine, sine]: Pair) -> Expr {
-        let (a, b) = (g.mul(self.by[0], cosine), g.mul(self.by[1], sine));
-        let sum = g.add(a, b);
-        g.add(sum, self.constant)
+impl<'g> Linear<'g> {
+    fn at(&self, [cosine, sine]: Pair<'g>) -> Term<'g> {
+        self.by[0] * cosine + self.by[1] * sine + self.constant
     }
 
     /// `factor · self + more`.
-    fn scaled(&self, g: &mut Graph, factor: Expr, more: Expr) -> Linear {
-        let by = self.by.map(|part| g.mul(factor, part));
-        let part = g.mul(factor, self.constant);
-        Linear { by, constant: g.add(part, more) }
+    fn scaled(&self, factor: Term<'g>, more: Term<'g>) -> Linear<'g> {
+        let by = self.by.map(|part| factor * part);
+        Linear { by, constant: factor * self.constant + more }
     }
 }
 
 /// `x² + y² + z² − square = 0`, of sums of the cosine and the sine of θ_3.
-struct Equation {
+struct Equation<'g> {
     /// `g_x`.
-    x: Linear,
+    x: Linear<'g>,
     /// `g_y`.
-    y: Linear,
+    y: Linear<'g>,
     /// `f_z`.
-    z: Linear,
+    z: Linear<'g>,
     /// `|f|²`.
-    square: Linear,
+    square: Linear<'g>,
 }
 
-impl Equation {
-    fn new(arm: &mut Layout, point: &Point) -> Equation {
+impl<'g> Equation<'g> {
+    fn new(arm: &Layout<'g>, point: &Point<'g>) -> Equation<'g> {
         let (square, z) = (point.square(arm), point.fz(arm));
-        let (g, [cosine, sine]) = (&mut arm.g, arm.alpha[0]);
-        let (a, d, r) = (arm.a[0], arm.d[1], point.r);
+        let (a, d, r, [cosine, sine]) = (arm.a[0], arm.d[1], point.r, arm.alpha[0]);
         // |r|² = |f|² + 2 d_2 f_z + d_2² + a_1² + 2 a_1 g_x.
-        let twice = g.add(d, d);
-        let lifted = z.scaled(g, twice, Expr::ZERO);
+        let lifted = z.scaled(d + d, d.zero());
         let sum = Linear {
-            by: [0, 1].map(|k| g.add(square.by[k], lifted.by[k])),
-            constant: g.add(square.constant, lifted.constant),
+            by: [0, 1].map(|k| square.by[k] + lifted.by[k]),
+            constant: square.constant + lifted.constant,
         };
-        let own = [g.mul(a, a), g.mul(d, d)];
-        let own = g.add(own[0], own[1]);
-        let reach = g.dot3(r, r);
-        let rest = g.sub(reach, own);
-        let double = g.add(a, a);
-        let inverse = g.recip(double);
-        let more = g.mul(inverse, rest);
-        let x = sum.scaled(g, -inverse, more);
+        let own = a * a + d * d;
+        let rest = dot(r, r) - own;
+        let inverse = (a + a).recip();
+        let x = sum.scaled(-inverse, inverse * rest);
         // r_z = sin α_1 g_y + cos α_1 (f_z + d_2).
-        let inverse = g.recip(sine);
-        let slope = g.mul(cosine, inverse);
-        let (height, own) = (g.mul(inverse, r[2]), g.mul(slope, d));
-        let more = g.sub(height, own);
-        let y = z.scaled(g, -slope, more);
+        let inverse = sine.recip();
+        let slope = cosine * inverse;
+        let y = z.scaled(-slope, inverse * r[2] - slope * d);
         Equation { x, y, z, square }
     }
 
+    /// The sum of something of the three whose squares it holds.
+    fn summed(&self, of: impl Fn(&Linear<'g>) -> Term<'g>) -> Term<'g> {
+        of(&self.x) + of(&self.y) + of(&self.z)
+    }
+
     /// Coefficients of the cosine's square, of half the product, and of the sine's square.
-    fn squares(&self, g: &mut Graph) -> [Expr; 3] {
-        [(0, 0), (0, 1), (1, 1)].map(|(k, l)| {
-            [&self.x, &self.y, &self.z].into_iter().fold(Expr::ZERO, |sum, part| {
-                let product = g.mul(part.by[k], part.by[l]);
-                g.add(sum, product)
-            })
-        })
+    fn squares(&self) -> [Term<'g>; 3] {
+        [(0, 0), (0, 1), (1, 1)].map(|(k, l)| self.summed(|part| part.by[k] * part.by[l]))
     }
 
     /// The same as a conic, of which the product is none.
-    fn conic(&self, g: &mut Graph) -> Conic {
-        let [cc, _, ss] = self.squares(g);
-        let excess = g.sub(cc, ss);
-        let inverse = g.recip(excess);
-        let each = [&self.x, &self.y, &self.z];
+    fn conic(&self) -> Conic<'g> {
+        let [cc, _, ss] = self.squares();
+        let inverse = (cc - ss).recip();
         let [d, e] = [0, 1].map(|k| {
-            let twice = each.into_iter().fold(Expr::ZERO, |sum, part| {
-                let product = g.mul(part.constant, part.by[k]);
-                g.add(sum, product)
-            });
-            let twice = g.add(twice, twice);
-            let rest = g.sub(twice, self.square.by[k]);
-            g.mul(inverse, rest)
+            let sum = self.summed(|part| part.constant * part.by[k]);
+            inverse * (sum + sum - self.square.by[k])
         });
-        let own = each.into_iter().fold(ss, |sum, part| {
-            let square = g.mul(part.constant, part.constant);
-            g.add(sum, square)
-        });
-        let rest = g.sub(own, self.square.constant);
-        Conic { d, e, f: g.mul(inverse, rest) }
+        let each = [&self.x, &self.y, &self.z].into_iter();
+        let own = each.fold(ss, |sum, part| sum + part.constant * part.constant);
+        Conic { d, e, f: inverse * (own - self.square.constant) }
     }
 }
 
 /// `c² + d c + e s + f = 0`.
-struct Conic {
-    d: Expr,
-    e: Expr,
-    f: Expr,
+struct Conic<'g> {
+    d: Term<'g>,
+    e: Term<'g>,
+    f: Term<'g>,
 }
 
-impl Conic {
+impl<'g> Conic<'g> {
     /// The angles where it meets the circle; where it does not, those where lines come closest.
-    fn angles(&self, g: &mut Graph) -> [Pair; 4] {
+    fn angles(&self) -> [Pair<'g>; 4] {
         let Conic { d, e, f } = *self;
-        let m = self.degenerate(g);
+        let m = self.degenerate();
         // (1 + m) (c + d/2(1 + m))² = −m (s + e/2m)²: lines with normals (α, ∓β) of length 1.
-        let half = g.number(Number::ratio(1, 2));
-        let first = g.add(Expr::ONE, m);
-        let [alpha, beta] = [first, -m].map(|square| {
-            let square = g.positive_part(square);
-            g.sqrt(square)
-        });
-        let apart = |g: &mut Graph, by: Expr, root: Expr| {
-            let (half_by, inverse) = (g.mul(half, by), g.recip(root));
-            g.mul(half_by, inverse)
-        };
+        let half = d.exact(Number::ratio(1, 2));
+        let [alpha, beta] = [d.one() + m, -m].map(|square| square.positive_part().sqrt());
+        let apart = |by: Term<'g>, root: Term<'g>| half * by * root.recip();
         // That of the smaller of both follows from the larger's: its own is zero by zero where a conic is symmetric.
-        let (by_d, by_e) = (apart(g, d, alpha), apart(g, e, beta));
-        let difference = g.sub(f, m);
-        let (square_d, square_e) = (g.mul(by_d, by_d), g.mul(by_e, by_e));
-        let from_d = {
-            let square = g.sub(square_d, difference);
-            let square = g.positive_part(square);
-            let root = g.sqrt(square);
-            g.select(e, root, -root)
+        let (by_d, by_e) = (apart(d, alpha), apart(e, beta));
+        let difference = f - m;
+        let (square_d, square_e) = (by_d * by_d, by_e * by_e);
+        let signed = |square: Term<'g>, by: Term<'g>| {
+            let root = square.positive_part().sqrt();
+            by.select(root, -root)
         };
-        let from_e = {
-            let square = g.add(square_e, difference);
-            let square = g.positive_part(square);
-            let root = g.sqrt(square);
-            g.select(d, root, -root)
-        };
-        let larger = g.add(half, m);
-        let k_d = g.select(larger, by_d, from_e);
-        let k_e = g.select(larger, from_d, by_e);
-        let (sum, rest) = (g.add(k_d, k_e), g.sub(k_e, k_d));
+        let from_d = signed(square_d - difference, e);
+        let from_e = signed(square_e + difference, d);
+        let larger = half + m;
+        let k_d = larger.select(by_d, from_e);
+        let k_e = larger.select(from_d, by_e);
+        let (sum, rest) = (k_d + k_e, k_e - k_d);
         let lines = [([alpha, -beta], -sum), ([alpha, beta], rest)];
         let [[a, b], [c, d]] = lines.map(|(normal, value)| {
             // An angle of a line that does not meet the circle stays where it comes closest: a step would lead to another's.
-            let square = g.mul(value, value);
-            let meets = g.sub(Expr::ONE, square);
-            two_angles(g, normal, value, None).map(|angle| {
-                let polished = self.polished(g, angle);
-                [0, 1].map(|k| g.select(meets, polished[k], angle[k]))
+            let meets = value.one() - value * value;
+            two_angles(normal, value, None).map(|angle| {
+                let polished = self.polished(angle);
+                [0, 1].map(|k| meets.select(polished[k], angle[k]))
             })
         });
         [a, b, c, d]
@@ -203,81 +158,61 @@ impl Conic {
     ///
     /// It is the root on the one side of the inflection on which there is no other, by Laguerre's steps from the end of that
     /// side, which do not leave the interval.
-    fn degenerate(&self, g: &mut Graph) -> Expr {
-        let [dd, ee] = [self.d, self.e].map(|x| g.mul(x, x));
-        let four = g.number(Number::integer(4));
-        let scaled = g.mul(four, self.f);
-        let second = g.sub(scaled, four);
-        let first = g.sub(scaled, dd);
-        let first = g.sub(first, ee);
-        let horner = |g: &mut Graph, m: Expr, coefficients: &[Expr]| {
-            coefficients.iter().fold(Expr::ZERO, |sum, next| {
-                let product = g.mul(sum, m);
-                g.add(product, *next)
-            })
+    fn degenerate(&self) -> Term<'g> {
+        let number = |n: Number| self.f.exact(n);
+        let (zero, one) = (self.f.zero(), self.f.one());
+        let [dd, ee] = [self.d, self.e].map(|x| x * x);
+        let four = number(Number::integer(4));
+        let scaled = four * self.f;
+        let second = scaled - four;
+        let first = scaled - dd - ee;
+        let horner = |m: Term<'g>, coefficients: &[Term<'g>]| {
+            coefficients.iter().fold(zero, |sum, next| sum * m + *next)
         };
         let value_of = [-four, second, first, -ee];
-        let twelve = g.number(Number::integer(12));
-        let slope_of = [-twelve, g.add(second, second), first];
-        let twelfth = g.number(Number::ratio(1, 12));
-        let inflection = g.mul(twelfth, second);
-        let there = horner(g, inflection, &value_of);
-        let (low, high) = (-Expr::ONE, Expr::ZERO);
-        let inside = g.select(there, high, low);
-        let above_low = g.add(inflection, Expr::ONE);
-        let start = g.select(above_low, inside, high);
-        let mut at = g.select(inflection, low, start);
-        let [two, three] = [2, 3].map(|n| g.number(Number::integer(n)));
-        let curvature_of = [-g.mul(two, twelve), g.add(second, second)];
+        let twelve = number(Number::integer(12));
+        let slope_of = [-twelve, second + second, first];
+        let inflection = number(Number::ratio(1, 12)) * second;
+        let there = horner(inflection, &value_of);
+        let (low, high) = (-one, zero);
+        let inside = there.select(high, low);
+        let start = (inflection + one).select(inside, high);
+        let mut at = inflection.select(low, start);
+        let [two, three] = [2, 3].map(|n| number(Number::integer(n)));
+        let curvature_of = [-(two * twelve), second + second];
         for _ in 0..STEPS {
-            let value = horner(g, at, &value_of);
-            let (slope, curvature) = (horner(g, at, &slope_of), horner(g, at, &curvature_of));
-            let (square, product) = (g.mul(slope, slope), g.mul(value, curvature));
-            let (square, product) = (g.mul(two, square), g.mul(three, product));
-            let left = g.sub(square, product);
-            let left = g.positive_part(left);
-            let left = g.mul(two, left);
-            let root = g.sqrt(left);
+            let value = horner(at, &value_of);
+            let (slope, curvature) = (horner(at, &slope_of), horner(at, &curvature_of));
+            let (square, product) = (slope * slope, value * curvature);
+            let left = two * square - three * product;
+            let root = (two * left.positive_part()).sqrt();
             // The cubic falls there; where it does not, the root is there but for rounding.
-            let down = g.sub(root, slope);
-            let safe = g.select(down, down, Expr::ONE);
-            let inverse = g.recip(safe);
-            let triple = g.mul(three, value);
-            let by = g.mul(triple, inverse);
-            let by = g.select(down, by, Expr::ZERO);
-            at = g.add(at, by);
-            at = g.select(at, high, at);
-            let over = g.add(at, Expr::ONE);
-            at = g.select(over, at, low);
+            let down = root - slope;
+            let inverse = down.select(down, one).recip();
+            let by = three * value * inverse;
+            at = at + down.select(by, zero);
+            at = at.select(high, at);
+            at = (at + one).select(at, low);
         }
         at
     }
 
     /// A few of Newton's steps from an angle, shorter where the slope is none.
-    fn polished(&self, g: &mut Graph, mut angle: Pair) -> Pair {
-        let two = g.number(Number::integer(2));
-        let four = g.number(Number::integer(4));
+    fn polished(&self, mut angle: Pair<'g>) -> Pair<'g> {
+        let Conic { d, e, f } = *self;
+        let [two, four] = [2, 4].map(|n| f.exact(Number::integer(n)));
         for _ in 0..POLISHED {
             let [c, s] = angle;
-            let inner = g.add(c, self.d);
-            let (first, second) = (g.mul(c, inner), g.mul(self.e, s));
-            let value = g.add(first, second);
-            let value = g.add(value, self.f);
-            let double = g.mul(two, c);
-            let double = g.add(double, self.d);
-            let (along, across) = (g.mul(self.e, c), g.mul(double, s));
-            let slope = g.sub(along, across);
-            let size = g.select(value, value, -value);
-            let (square, damping) = (g.mul(slope, slope), g.mul(four, size));
-            let inner = g.add(square, damping);
+            let value = c * (c + d) + e * s + f;
+            let double = two * c + d;
+            let slope = e * c - double * s;
+            let size = value.select(value, -value);
+            let inner = slope * slope + four * size;
             // Nothing is divided by zero where the equation holds and has no slope.
-            let inner = g.select(inner, inner, Expr::ONE);
-            let inverse = g.recip(inner);
-            let by = g.mul(value, slope);
-            let by = g.mul(by, inverse);
-            let (turned_c, turned_s) = (g.mul(by, s), g.mul(by, c));
-            let direction = [g.add(c, turned_c), g.sub(s, turned_s)];
-            (angle, _) = unit(g, direction);
+            let inverse = inner.select(inner, inner.one()).recip();
+            let by = value * slope * inverse;
+            let (turned_c, turned_s) = (by * s, by * c);
+            (angle, _) = unit([c + turned_c, s - turned_s]);
         }
         angle
     }

@@ -10,15 +10,16 @@ use super::one_slide::{
 };
 use super::point::Point;
 use super::position::free;
-use super::subproblem::{angle_between, on_circle, square, turned, turned_back, two_angles};
-use crate::expr::{Expr, Graph, Vec3};
+use super::subproblem::{Pair, angle_between, on_circle, square, turned, turned_back, two_angles};
+use super::term::{Term, Vector, cross, dot, minus, plus, times};
 use crate::robot::Sliding;
 
-/// The axis of a joint.
-pub(super) const Z: Vec3 = [Expr::ZERO, Expr::ZERO, Expr::ONE];
-
 /// Shoulder and elbow as the bits of the number, from the higher, as far as the joints have them.
-pub(super) fn joints(arm: &mut Layout, point: &Point, sliding: Sliding) -> Vec<[Value; 3]> {
+pub(super) fn joints<'g>(
+    arm: &Layout<'g>,
+    point: &Point<'g>,
+    sliding: Sliding,
+) -> Vec<[Value<'g>; 3]> {
     match sliding {
         Sliding::All => all(arm, point),
         Sliding::BehindTurn => behind_turn(arm, point),
@@ -34,189 +35,150 @@ pub(super) fn joints(arm: &mut Layout, point: &Point, sliding: Sliding) -> Vec<[
     }
 }
 
-/// `a_k x + Rx(α_k) v`, from 1.
-pub(super) fn link(arm: &mut Layout, k: usize, v: Vec3) -> Vec3 {
-    let [x, y, z] = about_x(&mut arm.g, arm.alpha[k - 1], v);
-    [arm.g.add(arm.a[k - 1], x), y, z]
+/// The axis of a joint.
+pub(super) fn z<'g>(arm: &Layout<'g>) -> Vector<'g> {
+    let [zero, one] = [arm.tiny.zero(), arm.tiny.one()];
+    [zero, zero, one]
 }
 
-/// `Rx(−α_1) (v − a_1 x)`.
-fn behind_first_link(arm: &mut Layout, [x, y, z]: Vec3) -> Vec3 {
-    let x = arm.g.sub(x, arm.a[0]);
-    about_x_back(&mut arm.g, arm.alpha[0], [x, y, z])
+/// What of a vector is across z.
+pub(super) fn across([x, y, _]: Vector<'_>) -> Pair<'_> {
+    [x, y]
 }
 
-/// The point behind joint 3, which slides, where it stands at no displacement.
-pub(super) fn unmoved(arm: &mut Layout, point: &Point) -> Vec3 {
+/// The point behind joint 3, which slides, where it stands at no displacement, behind the link before it.
+pub(super) fn unmoved<'g>(arm: &Layout<'g>, point: &Point<'g>) -> Vector<'g> {
     let [x, y] = point.c;
-    about_z(&mut arm.g, arm.offsets[2], [x, y, point.cz])
-}
-
-fn minus(g: &mut Graph, a: Vec3, b: Vec3) -> Vec3 {
-    core::array::from_fn(|k| g.sub(a[k], b[k]))
+    arm.link(1, about_z(arm.offsets[2], [x, y, point.cz]))
 }
 
 /// x and y of `x e + y f = w`, for a vector in the plane of e and f, and in general for its projection.
-fn in_plane(g: &mut Graph, e: Vec3, f: Vec3, w: Vec3) -> [Expr; 2] {
-    let normal = g.cross3(e, f);
-    let length = g.dot3(normal, normal);
-    let inverse = g.recip(length);
-    let (first, second) = (g.cross3(f, normal), g.cross3(normal, e));
-    [first, second].map(|dual| {
-        let part = g.dot3(dual, w);
-        g.mul(inverse, part)
-    })
+fn in_plane<'g>(e: Vector<'g>, f: Vector<'g>, w: Vector<'g>) -> Pair<'g> {
+    let normal = cross(e, f);
+    let inverse = dot(normal, normal).recip();
+    [cross(f, normal), cross(normal, e)].map(|dual| inverse * dot(dual, w))
 }
 
-fn all(arm: &mut Layout, point: &Point) -> Vec<[Value; 3]> {
+fn all<'g>(arm: &Layout<'g>, point: &Point<'g>) -> Vec<[Value<'g>; 3]> {
     let [first, second] = [arm.offsets[0], arm.offsets[1]];
-    let there = unmoved(arm, point);
-    let there = link(arm, 2, there);
-    let there = about_z(&mut arm.g, second, there);
-    let there = link(arm, 1, there);
-    let there = about_z(&mut arm.g, first, there);
-    let (g, [near, far]) = (&mut arm.g, [arm.alpha[0], arm.alpha[1]]);
-    let w = minus(g, point.wrist, there);
-    let middle = about_x(g, near, Z);
-    let middle = about_z(g, first, middle);
-    let last = about_x(g, far, Z);
-    let last = about_z(g, second, last);
-    let last = about_x(g, near, last);
-    let last = about_z(g, first, last);
-    let axes = [Z, middle, last];
-    let mut values = [Expr::ZERO; 3];
-    for (k, value) in values.iter_mut().enumerate() {
-        let dual = g.cross3(axes[(k + 1) % 3], axes[(k + 2) % 3]);
-        let (volume, part) = (g.dot3(axes[k], dual), g.dot3(w, dual));
-        let inverse = g.recip(volume);
-        *value = g.mul(inverse, part);
-    }
+    let there = arm.link(0, about_z(second, unmoved(arm, point)));
+    let w = minus(point.wrist, about_z(first, there));
+    let ([near, far], z) = ([arm.alpha[0], arm.alpha[1]], z(arm));
+    let middle = about_z(first, about_x(near, z));
+    let last = about_x(near, about_z(second, about_x(far, z)));
+    let axes = [z, middle, about_z(first, last)];
+    let values = [0, 1, 2].map(|k| {
+        let dual = cross(axes[(k + 1) % 3], axes[(k + 2) % 3]);
+        let (volume, part) = (dot(axes[k], dual), dot(w, dual));
+        volume.recip() * part
+    });
     vec![values.map(Value::Slide)]
 }
 
 /// Across both directions of the prismatic joints only θ_1 moves the point.
-fn behind_turn(arm: &mut Layout, point: &Point) -> Vec<[Value; 3]> {
+fn behind_turn<'g>(arm: &Layout<'g>, point: &Point<'g>) -> Vec<[Value<'g>; 3]> {
     let second = arm.offsets[1];
-    let there = unmoved(arm, point);
-    let there = link(arm, 2, there);
-    let there = about_z(&mut arm.g, second, there);
-    let there = link(arm, 1, there);
-    let free_first = free(arm, 0);
-    let (g, [near, far]) = (&mut arm.g, [arm.alpha[0], arm.alpha[1]]);
-    let middle = about_x(g, near, Z);
-    let last = about_x(g, far, Z);
-    let last = about_z(g, second, last);
-    let last = about_x(g, near, last);
-    let normal = g.cross3(middle, last);
-    let [nx, ny, nz] = normal;
+    let there = arm.link(0, about_z(second, unmoved(arm, point)));
+    let ([near, far], z) = ([arm.alpha[0], arm.alpha[1]], z(arm));
+    let middle = about_x(near, z);
+    let last = about_x(near, about_z(second, about_x(far, z)));
+    let normal = cross(middle, last);
     let [rx, ry, rz] = point.r;
-    let (across, lift) = (g.dot3(normal, there), g.mul(nz, rz));
-    let right = g.sub(across, lift);
+    let right = dot(normal, there) - normal[2] * rz;
     // n_x v_x + n_y v_y of v = Rz(−θ_1) r.
-    let by = turned_back(g, [nx, ny], [rx, ry]);
-    let firsts = two_angles(g, by, right, free_first);
-    let each = firsts.into_iter().map(|first| {
-        let v = about_z_back(g, first, point.r);
-        let w = minus(g, v, there);
-        let [second, third] = in_plane(g, middle, last, w);
+    let by = turned_back(across(normal), [rx, ry]);
+    let each = two_angles(by, right, free(arm, 0)).map(|first| {
+        let v = about_z_back(first, point.r);
+        let [second, third] = in_plane(middle, last, minus(v, there));
         [Value::Turn(first), Value::Slide(second), Value::Slide(third)]
     });
-    each.collect()
+    each.to_vec()
 }
 
 /// Across both directions of the prismatic joints only θ_3 moves the point.
-fn before_turn(arm: &mut Layout, point: &Point) -> Vec<[Value; 3]> {
+fn before_turn<'g>(arm: &Layout<'g>, point: &Point<'g>) -> Vec<[Value<'g>; 3]> {
     let [first, second] = [arm.offsets[0], arm.offsets[1]];
+    let (z, zero) = (z(arm), arm.tiny.zero());
     // What the rows in front of joint 3 do to a point and to a direction.
-    let (a, alpha) = (arm.a.clone(), arm.alpha.clone());
-    let placed = |g: &mut Graph, lengths: bool, v: Vec3| {
-        let mut v = v;
+    let placed = |lengths: bool, mut v: Vector<'g>| {
         for (k, turn) in [(1, second), (0, first)] {
-            v = about_x(g, alpha[k], v);
-            if lengths {
-                v[0] = g.add(a[k], v[0]);
-            }
-            v = about_z(g, turn, v);
+            v = if lengths { arm.link(k, v) } else { about_x(arm.alpha[k], v) };
+            v = about_z(turn, v);
         }
         v
     };
-    let free_third = free(arm, 2);
-    let g = &mut arm.g;
-    let middle = about_x(g, alpha[0], Z);
-    let middle = about_z(g, first, middle);
-    let there = placed(g, true, [Expr::ZERO, Expr::ZERO, point.uz]);
-    let normal = g.cross3(Z, middle);
+    let middle = about_z(first, about_x(arm.alpha[0], z));
+    let there = placed(true, [zero, zero, point.uz]);
+    let normal = cross(z, middle);
     // The normal as joint 3 sees it.
     let mut seen = normal;
     for (k, turn) in [(0, first), (1, second)] {
-        seen = about_z_back(g, turn, seen);
-        seen = about_x_back(g, alpha[k], seen);
+        seen = about_x_back(arm.alpha[k], about_z_back(turn, seen));
     }
-    let w = minus(g, point.wrist, there);
-    let right = g.dot3(normal, w);
+    let w = minus(point.wrist, there);
+    let right = dot(normal, w);
     // m · Rz(θ_3) c.
-    let [re, im] = turned_back(g, point.c, [seen[0], seen[1]]);
-    let thirds = two_angles(g, [re, im], right, free_third);
-    let each = thirds.into_iter().map(|third| {
-        let [x, y] = turned(g, third, point.c);
-        let moved = placed(g, false, [x, y, Expr::ZERO]);
-        let w = minus(g, w, moved);
-        let [first, second] = in_plane(g, Z, middle, w);
+    let by = turned_back(point.c, across(seen));
+    let each = two_angles(by, right, free(arm, 2)).map(|third| {
+        let [x, y] = turned(third, point.c);
+        let moved = placed(false, [x, y, zero]);
+        let [first, second] = in_plane(z, middle, minus(w, moved));
         [Value::Slide(first), Value::Slide(second), Value::Turn(third)]
     });
-    each.collect()
+    each.to_vec()
 }
 
 /// The point as joint 2 is to bring it where the first has no displacement, and that one's direction.
-pub(super) fn behind_first_slide(arm: &mut Layout, point: &Point) -> (Vec3, Vec3) {
-    let v = about_z_back(&mut arm.g, arm.offsets[0], point.wrist);
-    let w = behind_first_link(arm, v);
-    (w, about_x_back(&mut arm.g, arm.alpha[0], Z))
+pub(super) fn behind_first_slide<'g>(
+    arm: &Layout<'g>,
+    point: &Point<'g>,
+) -> (Vector<'g>, Vector<'g>) {
+    let v = about_z_back(arm.offsets[0], point.wrist);
+    (arm.behind_link(0, v), about_x_back(arm.alpha[0], z(arm)))
 }
 
 /// What is left along axis 2, by the first joint: `w_z − e_z d_1 = f_z + d_2`.
-pub(super) fn first_left(arm: &mut Layout, w: Vec3, e: Vec3, fz: Expr) -> Value {
-    let rest = arm.g.sub(w[2], fz);
-    let rest = arm.g.sub(rest, arm.d[1]);
-    let inverse = arm.g.recip(e[2]);
-    Value::Slide(arm.g.mul(inverse, rest))
+pub(super) fn first_left<'g>(
+    arm: &Layout<'g>,
+    w: Vector<'g>,
+    e: Vector<'g>,
+    fz: Term<'g>,
+) -> Value<'g> {
+    let rest = w[2] - fz - arm.d[1];
+    Value::Slide(e[2].recip() * rest)
+}
+
+/// The angle of joint 2, of which the point `f` behind it is to be where `w` is across its axis.
+pub(super) fn second_turn<'g>(arm: &Layout<'g>, f: Vector<'g>, w: Vector<'g>) -> Pair<'g> {
+    angle_between(across(f), across(w), free(arm, 1))
 }
 
 /// The distance from axis 2 depends on the last joint alone.
-fn around_along(arm: &mut Layout, point: &Point) -> Vec<[Value; 3]> {
+fn around_along<'g>(arm: &Layout<'g>, point: &Point<'g>) -> Vec<[Value<'g>; 3]> {
     let (w, e) = behind_first_slide(arm, point);
-    let there = unmoved(arm, point);
-    let f = link(arm, 2, there);
-    let along = about_x(&mut arm.g, arm.alpha[1], Z);
-    let reach = square(&mut arm.g, [w[0], w[1]]);
-    let thirds = on_circle(&mut arm.g, [f[0], f[1]], [along[0], along[1]], reach);
-    let each = thirds.into_iter().map(|third| {
-        let moved = arm.g.scale3(third, along);
-        let f = arm.g.add3(f, moved);
-        let free_second = free(arm, 1);
-        let second = angle_between(&mut arm.g, [f[0], f[1]], [w[0], w[1]], free_second);
+    let f = unmoved(arm, point);
+    let along = about_x(arm.alpha[1], z(arm));
+    let reach = square(across(w));
+    let each = on_circle(across(f), across(along), reach).map(|third| {
+        let f = plus(f, times(third, along));
+        let second = second_turn(arm, f, w);
         [first_left(arm, w, e, f[2]), Value::Turn(second), Value::Slide(third)]
     });
-    each.collect()
+    each.to_vec()
 }
 
 /// The distance from axis 2 is known, and the first joint brings the point there.
-fn around_across(arm: &mut Layout, point: &Point) -> Vec<[Value; 3]> {
+fn around_across<'g>(arm: &Layout<'g>, point: &Point<'g>) -> Vec<[Value<'g>; 3]> {
     let (w, e) = behind_first_slide(arm, point);
-    let there = unmoved(arm, point);
-    let f = link(arm, 2, there);
-    let reach = square(&mut arm.g, [f[0], f[1]]);
-    let firsts = on_circle(&mut arm.g, [w[0], w[1]], [-e[0], -e[1]], reach);
-    let each = firsts.into_iter().map(|first| {
-        let moved = arm.g.scale3(-first, e);
-        let w = arm.g.add3(w, moved);
-        let free_second = free(arm, 1);
-        let second = angle_between(&mut arm.g, [f[0], f[1]], [w[0], w[1]], free_second);
-        let rest = arm.g.sub(w[2], f[2]);
-        let rest = arm.g.sub(rest, arm.d[1]);
+    let f = unmoved(arm, point);
+    let reach = square(across(f));
+    let each = on_circle(across(w), [-e[0], -e[1]], reach).map(|first| {
+        let w = plus(w, times(-first, e));
+        let second = second_turn(arm, f, w);
         // The last joint slides along axis 2, to one of its sides.
-        let third = arm.g.mul(arm.alpha[1][0], rest);
+        let rest = w[2] - f[2] - arm.d[1];
+        let third = arm.alpha[1][0] * rest;
         [Value::Slide(first), Value::Turn(second), Value::Slide(third)]
     });
-    each.collect()
+    each.to_vec()
 }

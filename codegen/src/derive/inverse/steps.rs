@@ -186,14 +186,7 @@ fn array<const N: usize>(values: &[f64]) -> [f64; N] {
 
 /// The steps behind a closed form of an arm.
 pub fn steps(robot: &Robot, form: ClosedForm) -> Steps {
-    match robot.dof() {
-        2 => steps_of::<2>(robot, form),
-        3 => steps_of::<3>(robot, form),
-        4 => steps_of::<4>(robot, form),
-        5 => steps_of::<5>(robot, form),
-        7 => steps_of::<7>(robot, form),
-        _ => steps_of::<6>(robot, form),
-    }
+    by_joints!(robot.dof(), steps_of(robot, form))
 }
 
 fn steps_of<const N: usize>(robot: &Robot, form: ClosedForm) -> Steps {

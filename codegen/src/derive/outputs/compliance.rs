@@ -4,7 +4,7 @@ use stiffarm_kernels::Output;
 
 use super::{Derivation, Derived, springs};
 use crate::derive::chain::{Chain, Levers, base_twists};
-use crate::expr::{Expr, Twist, Vec3, parallel3};
+use crate::expr::{Expr, Vec3, parallel3};
 
 /// The outputs of this file.
 pub(super) const DERIVED: &[(Output, Derivation)] = &[(Output::Compliance, compliance)];
@@ -103,8 +103,7 @@ fn elements(chain: &mut Chain) -> Vec<Element> {
     for elastic in springs::elastics(chain) {
         let (_, springs) = springs::springs(chain, &levers, &elastic);
         for spring in springs {
-            let (v, w): Twist = spring.twist;
-            let (v, w) = (chain.in_base(v), chain.in_base(w));
+            let (v, w) = chain.twist_in_base(spring.twist);
             elements.push(Element { compliance: spring.compliance, twist: six(v, w) });
         }
     }

@@ -169,14 +169,11 @@ fn links(chain: &mut Chain, sum: &mut Sum, weights: bool) {
 fn compliance_regressor(chain: &mut Chain) -> Derived {
     let w = wrench(chain);
     let twists = twists(chain);
-    let columns: Vec<Twist> = twists
-        .into_iter()
-        .map(|twist| {
-            let torque = power(chain, twist, w);
-            let scaled = twist_times(chain, twist, torque);
-            (chain.in_base(scaled.0), chain.in_base(scaled.1))
-        })
-        .collect();
+    let columns = twists.into_iter().map(|twist| {
+        let torque = power(chain, twist, w);
+        let scaled = twist_times(chain, twist, torque);
+        chain.twist_in_base(scaled)
+    });
     flatten(columns).into()
 }
 
@@ -185,13 +182,8 @@ fn twist_times(chain: &mut Chain, (v, w): Twist, factor: Expr) -> Twist {
 }
 
 /// A displacement summed in the working frame.
+#[derive(Default)]
 struct Sum(Vec3, Vec3);
-
-impl Default for Sum {
-    fn default() -> Self {
-        Sum([Expr::ZERO; 3], [Expr::ZERO; 3])
-    }
-}
 
 impl Sum {
     fn add(&mut self, chain: &mut Chain, twist: Twist, by: Expr) {
@@ -209,6 +201,6 @@ impl Sum {
     }
 
     fn in_base(self, chain: &mut Chain) -> Vec<Expr> {
-        flatten([(chain.in_base(self.0), chain.in_base(self.1))])
+        flatten([chain.twist_in_base((self.0, self.1))])
     }
 }

@@ -3,7 +3,7 @@
 use stiffarm_kernels::Output;
 
 use super::{Derivation, Derived};
-use crate::derive::chain::{Chain, seen_from, twists};
+use crate::derive::chain::{Chain, flatten, seen_from, twists};
 use crate::expr::{Expr, Symbol};
 use crate::number::Number;
 
@@ -54,11 +54,15 @@ fn square(chain: &mut Chain) -> Expr {
     let n = chain.dof();
     if n < 6 {
         let twists = twists(chain);
-        return squares(chain, &twists.into_iter().map(six).collect::<Vec<_>>());
+        return squares(
+            chain,
+            &twists.into_iter().map(|twist| flatten([twist])).collect::<Vec<_>>(),
+        );
     }
     let mut best = None;
     for row in 0..=n {
-        let columns: Vec<Vec<Expr>> = seen_from(chain, row).into_iter().map(six).collect();
+        let columns: Vec<Vec<Expr>> =
+            seen_from(chain, row).into_iter().map(|twist| flatten([twist])).collect();
         let square = squares(chain, &columns);
         let cost = chain.g.count(&[square]).cost();
         if best.is_none_or(|(least, _)| cost < least) {
@@ -79,20 +83,10 @@ fn squares(chain: &mut Chain, columns: &[Vec<Expr>]) -> Expr {
     let rows: Vec<Vec<Expr>> =
         (0..6).map(|r| columns.iter().map(|column| column[r]).collect()).collect();
     let minors = if n < 6 { chain.g.minors(&rows) } else { chain.g.minors(columns) };
-    minors.into_iter().fold(Expr::ZERO, |sum, minor| {
-        let square = chain.g.mul(minor, minor);
-        chain.g.add(sum, square)
-    })
+    chain.g.products(minors.into_iter().map(|minor| (minor, minor)))
 }
 
 fn dot(chain: &mut Chain, columns: &[Vec<Expr>], (r, c): (usize, usize)) -> Expr {
     let (r, c) = (r.min(c), r.max(c));
-    columns.iter().fold(Expr::ZERO, |sum, column| {
-        let part = chain.g.mul(column[r], column[c]);
-        chain.g.add(sum, part)
-    })
-}
-
-fn six((v, w): crate::expr::Twist) -> Vec<Expr> {
-    v.into_iter().chain(w).collect()
+    chain.g.products(columns.iter().map(|column| (column[r], column[c])))
 }

@@ -26,23 +26,13 @@ fn parameter_jacobian(chain: &mut Chain) -> Derived {
                 Step::TranslateX(_) => (chain.axes(s)[0], false),
                 Step::RotateX(_) => (chain.axes(s)[0], true),
             };
-            columns.push(column(chain, &levers, Point::Step(s), axis, revolute));
+            columns.push(levers.twist(&mut chain.g, Point::Step(s), axis, revolute));
         }
     }
     let last = chain.axes(chain.steps().len());
     columns.extend(last.map(|axis| (axis, [Expr::ZERO; 3])));
     columns.extend(rotation_columns(chain, last).map(|axis| ([Expr::ZERO; 3], axis)));
-    let turned: Vec<Twist> =
-        columns.into_iter().map(|(v, w)| (chain.in_base(v), chain.in_base(w))).collect();
-    flatten(turned).into()
-}
-
-fn column(chain: &mut Chain, levers: &Levers, from: Point, axis: Vec3, revolute: bool) -> Twist {
-    if !revolute {
-        return (axis, [Expr::ZERO; 3]);
-    }
-    let lever = levers.lever(&mut chain.g, from, Some(axis));
-    (chain.g.cross3(axis, lever), axis)
+    flatten(columns.into_iter().map(|twist| chain.twist_in_base(twist))).into()
 }
 
 /// Rotation of the tool per unit of each entry of its rotation vector: the left Jacobian of SO(3) at

@@ -2,6 +2,10 @@
 
 use crate::emit::lines::{Lines, WIDTH};
 
+/// What stands before and behind declarations that a C++ compiler takes, too.
+pub(in crate::emit) const FOR_CPP: [&str; 2] =
+    ["#ifdef __cplusplus\nextern \"C\" {\n#endif\n", "#ifdef __cplusplus\n}\n#endif\n"];
+
 impl Lines {
     /// `{`, what `inner` writes, `}`.
     pub fn braces(&mut self, inner: impl FnOnce(&mut Self)) {
@@ -10,23 +14,10 @@ impl Lines {
 
     /// Sentences as one comment, each from a new line, wrapped at words.
     pub fn comment(&mut self, sentences: &[String]) {
-        let indent = 4 * self.depth;
         let mut start = "/* ";
         for sentence in sentences {
-            let mut current = String::new();
-            for word in harmless(sentence).split(' ') {
-                let columns = indent + 6 + current.chars().count() + 1 + word.chars().count();
-                if !current.is_empty() && columns > WIDTH {
-                    self.push(indent, &format!("{start}{current}"));
-                    current.clear();
-                    start = " * ";
-                }
-                if !current.is_empty() {
-                    current.push(' ');
-                }
-                current.push_str(word);
-            }
-            self.push(indent, format!("{start}{current}").trim_end());
+            // Room for the end of the comment.
+            self.wrapped_to(WIDTH - 3, &harmless(sentence), [start, " * "]);
             start = " * ";
         }
         // The end of the comment stands behind its last word.

@@ -3,7 +3,7 @@
 use super::super::asked;
 use super::super::cells::world;
 use super::super::hash::{Table, fnv1a};
-use super::comment::{harmless, plain};
+use super::comment::{FOR_CPP, harmless, plain};
 use super::function::Function;
 use super::posture::declaration;
 use super::set_points;
@@ -25,9 +25,7 @@ pub(super) fn header(module: &Module, table: &Table, source: &str) -> String {
     out.blank();
     out.code("#include <stdint.h>");
     out.blank();
-    out.code("#ifdef __cplusplus");
-    out.code("extern \"C\" {");
-    out.code("#endif");
+    out.verbatim(FOR_CPP[0]);
     out.blank();
     constants(module, &mut out, table, hash);
     types(module, &mut out);
@@ -36,9 +34,7 @@ pub(super) fn header(module: &Module, table: &Table, source: &str) -> String {
     }
     set_points::declared(module, &mut out);
     out.blank();
-    out.code("#ifdef __cplusplus");
-    out.code("}");
-    out.code("#endif");
+    out.verbatim(FOR_CPP[1]);
     out.blank();
     out.code("#endif");
     out.finish()
@@ -166,26 +162,24 @@ fn constants(module: &Module, out: &mut Lines, table: &Table, hash: u64) {
 pub(in crate::emit) fn structures(module: &Module, out: &mut Lines) {
     let (name, real) = (module.name(), module.language.real());
     out.comment(&["Whether the loaded arm has a stable equilibrium.".to_string()]);
-    out.code("typedef enum");
-    out.code("{");
-    out.code(&format!("    {} = 0,", module.constant("OK")));
-    out.code(&format!("    {} = 1", module.constant("UNSTABLE")));
-    out.code(&format!("}} {name}_status_t;"));
+    let [ok, unstable] = ["OK", "UNSTABLE"].map(|status| module.constant(status));
+    out.verbatim(&format!(
+        "typedef enum\n{{\n    {ok} = 0,\n    {unstable} = 1\n}} {name}_status_t;\n"
+    ));
     out.blank();
     declaration(module, out);
     for function in module.ir.functions().filter(|f| f.blocks().len() > 1) {
         out.blank();
         out.comment(&[format!("Everything that {name}_{} computes.", function.full_name())]);
         out.code("typedef struct");
-        out.code("{");
-        out.indent();
-        for block in function.blocks() {
-            let of = function.own().map_or(String::new(), |own| format!("{}_", own.name));
-            let size = module.constant(&format!("{of}{}_SIZE", block.held.name()).to_uppercase());
-            out.code(&format!("{real} {}[{size}];", block.held.name()));
-        }
-        out.dedent();
-        out.code(&format!("}} {name}_{}_t;", function.full_name()));
+        out.within("{", &format!("}} {name}_{}_t;", function.full_name()), |out| {
+            for block in function.blocks() {
+                let of = function.own().map_or(String::new(), |own| format!("{}_", own.name));
+                let size =
+                    module.constant(&format!("{of}{}_SIZE", block.held.name()).to_uppercase());
+                out.code(&format!("{real} {}[{size}];", block.held.name()));
+            }
+        });
     }
 }
 

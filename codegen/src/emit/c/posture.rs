@@ -13,20 +13,18 @@ pub(super) fn declaration(module: &Module, out: &mut Lines) {
         "The joint values as the kernels need them: sines, cosines, displacements.".to_string()
     ]);
     out.code("typedef struct");
-    out.code("{");
-    out.indent();
-    for angle in &module.ir.posture.angles {
-        let (suffix, sum) = (&angle.suffix, print(&angle.sum));
-        out.code(&format!("{real} s{suffix}; /* sine of {sum} */"));
-        out.code(&format!("{real} c{suffix}; /* cosine of {sum} */"));
-    }
-    for plain in &module.ir.posture.plain {
-        let meaning = plain.meaning(module.ir.robot);
-        let (field, source) = (plain.field(), print(&plain.source()));
-        out.code(&format!("{real} {field}; /* {source}, {meaning} */"));
-    }
-    out.dedent();
-    out.code(&format!("}} {name}_posture_t;"));
+    out.within("{", &format!("}} {name}_posture_t;"), |out| {
+        for angle in &module.ir.posture.angles {
+            let (suffix, sum) = (&angle.suffix, print(&angle.sum));
+            out.code(&format!("{real} s{suffix}; /* sine of {sum} */"));
+            out.code(&format!("{real} c{suffix}; /* cosine of {sum} */"));
+        }
+        for plain in &module.ir.posture.plain {
+            let meaning = plain.meaning(module.ir.robot);
+            let (field, source) = (plain.field(), print(&plain.source()));
+            out.code(&format!("{real} {field}; /* {source}, {meaning} */"));
+        }
+    });
 }
 
 impl Module<'_> {
@@ -56,8 +54,8 @@ impl Module<'_> {
         let readings = &self.ir.readings;
         let mut unread: Vec<Extra> = readings.extras.clone();
         if of_readings && readings.moves && posture.reads_joints() {
-            let extras: String =
-                unread.drain(..).map(|extra| format!(", {}", extra.name())).collect();
+            unread.clear();
+            let extras = readings.handed_on();
             let (real, upper) = (self.language.real(), self.name().to_uppercase());
             out.code(&format!("{real} q[{upper}_JOINTS];"));
             out.blank();

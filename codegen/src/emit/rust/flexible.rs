@@ -3,10 +3,9 @@
 use std::collections::BTreeMap;
 
 use super::super::hash::provenance;
-use super::RustOptions;
-use super::shapes;
 use super::statements::{BLOCK, Statements, sin_cos};
 use super::style::Rust;
+use super::{RustOptions, shapes, table};
 use crate::derive::{COMPONENTS, Displacements, Form, flexible};
 use crate::emit::lines::Lines;
 use crate::ir::{Constants, Function, Statement, Term, blocks, lively, read};
@@ -30,26 +29,12 @@ pub fn flexible_rust(
     out.code(&format!("use {}::{{Pose, Scalar}};", options.kernels));
     out.blank();
     out.doc("Displacements of the closed forms; all others count as zero.");
-    let kept: Vec<String> = (0..n + 2)
-        .flat_map(|place| (0..6).map(move |component| (place, component)))
-        .filter(|(place, component)| displacements.has(*place, *component))
-        .map(|(place, component)| format!("{:?}", format!("{}{place}", COMPONENTS[component])))
-        .collect();
+    let kept: Vec<String> = kept(displacements, n).map(|(name, _)| format!("{name:?}")).collect();
     out.within(&format!("pub const DISPLACEMENTS: [&str; {}] = [", kept.len()), "];", |out| {
         kept.chunks(6).for_each(|six| out.code(&format!("{},", six.join(", "))))
     });
-    let symbols = robot.symbols();
-    if !symbols.is_empty() {
-        out.blank();
-        out.doc("The table's symbolic link parameters.");
-        out.code("#[allow(non_snake_case)]");
-        out.code("#[derive(Clone, Copy, Debug, PartialEq)]");
-        out.within("pub struct Parameters<S> {", "}", |out| {
-            for symbol in symbols {
-                out.doc(&format!("`{}` of the table, {}.", symbol.name, symbol.dimension.unit()));
-                out.code(&format!("pub {}: S,", symbol.name));
-            }
-        });
+    if !robot.symbols().is_empty() {
+        table::symbols(&mut out, robot);
     }
     for form in Form::EACH {
         function(&mut out, robot, displacements, form);
@@ -146,11 +131,13 @@ fn body(
 fn inputs(function: &Function, n: usize, displacements: &Displacements) -> BTreeMap<String, Term> {
     let names = read(&function.body);
     let joints = function.plain.iter().map(|plain| (plain.field().to_string(), plain.source()));
-    let places = (0..n + 2).flat_map(|place| (0..6).map(move |component| (place, component)));
-    let kept = places.filter(|(place, component)| displacements.has(*place, *component));
-    let displaced = kept.map(|(place, component)| {
-        let entry = Term::Entry("e", vec![place, component]);
-        (format!("{}{place}", COMPONENTS[component]), entry)
-    });
+    let displaced = kept(displacements, n).map(|(name, at)| (name, Term::Entry("e", at.to_vec())));
     joints.chain(displaced).filter(|(name, _)| names.contains(name.as_str())).collect()
+}
+
+/// The displacements of the closed forms: their names, and place and component.
+fn kept(displacements: &Displacements, n: usize) -> impl Iterator<Item = (String, [usize; 2])> {
+    let places = (0..n + 2).flat_map(|place| (0..6).map(move |component| [place, component]));
+    let kept = places.filter(|[place, component]| displacements.has(*place, *component));
+    kept.map(|at| (format!("{}{}", COMPONENTS[at[1]], at[0]), at))
 }

@@ -6,6 +6,7 @@ use super::RustOptions;
 use super::function::{Function, parameter};
 use super::posture::{self, INLINE, readings, values};
 use super::shapes;
+use super::table::imports;
 use crate::derive::Block;
 use crate::emit::docs::{ALL_ZERO, docs, inputs};
 use crate::emit::lines::Lines;
@@ -41,8 +42,7 @@ impl Function<'_> {
             &format!("pub fn {name}<S: Scalar>({}) -> {returned} {{", parameters.join(", ")),
             "}",
             |out| {
-                let names: String =
-                    self.module.readings.extras.iter().map(|e| format!(", {}", e.name())).collect();
+                let names = self.module.readings.handed_on();
                 let posture = if all {
                     format!("Posture::new({}q{names})", if offsets { "constants, " } else { "" })
                 } else {
@@ -177,21 +177,15 @@ impl Function<'_> {
     fn module(&self, out: &mut Lines, options: &RustOptions) {
         out.doc(&format!("[`{0}`](fn@{0}) in parts, with its figures.", self.of.name()));
         out.within(&format!("pub mod {} {{", self.of.name()), "}", |out| {
-            let mut imports = vec!["Ops"];
-            if self.of.outputs().any(|o| matches!(o.form(), Form::Pose | Form::Poses)) {
-                imports.push("Pose");
-            }
-            imports.push("Scalar");
-            if self.of.fallible() {
-                imports.push("Unstable");
-            }
-            if self.of.solves().any(|solve| solve.margin.is_some()) {
-                imports.push("margin");
-            }
-            if self.of.solves().next().is_some() {
-                imports.push(self.style.solve());
-            }
-            out.code(&format!("use {}::{{{}}};", options.kernels, imports.join(", ")));
+            let poses = self.of.outputs().any(|o| matches!(o.form(), Form::Pose | Form::Poses));
+            let uses = [
+                (true, "Ops Scalar"),
+                (poses, "Pose"),
+                (self.of.fallible(), "Unstable"),
+                (self.of.solves().any(|solve| solve.margin.is_some()), "margin"),
+                (self.of.solves().next().is_some(), self.style.solve()),
+            ];
+            imports(out, options, &uses);
             out.code("use super::Posture;");
             self.figures(out);
             if self.fused() {

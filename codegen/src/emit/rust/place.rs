@@ -4,7 +4,7 @@ use stiffarm_kernels::Form;
 
 use super::super::cells;
 use super::RustOptions;
-use super::table::listed;
+use super::table::{self, listed};
 use crate::emit::lines::Lines;
 use crate::ir::{Group, Module};
 use crate::robot::Robot;
@@ -56,21 +56,12 @@ fn docs(out: &mut Lines, robot: &Robot, place: &str) {
 
 /// What the items of the module need.
 fn imports(out: &mut Lines, module: &Module, options: &RustOptions, of: &Group) {
-    let used = |name: &'static str, used: bool| used.then_some(name);
-    let imports = [
-        Some("Arm"),
-        Some("DhRow"),
-        Some("Error"),
-        Some("Kernels"),
-        Some("Output"),
-        used("Pose", of.outputs.iter().any(|o| o.form() == Form::Pose)),
-        Some("Scalar"),
-        used("Unstable", of.outputs.iter().any(|o| o.is_fallible())),
-        Some("fill"),
-        Some("has"),
+    let uses = [
+        (true, "Arm DhRow Error Kernels Output Scalar fill has"),
+        (of.outputs.iter().any(|o| o.form() == Form::Pose), "Pose"),
+        (of.outputs.iter().any(|o| o.is_fallible()), "Unstable"),
     ];
-    let imports = imports.into_iter().flatten().collect::<Vec<_>>().join(", ");
-    out.code(&format!("use {}::{{{imports}}};", options.kernels));
+    table::imports(out, options, &uses);
     let symbolic = if module.is_symbolic() { "Constants, Parameters, " } else { "" };
     let joints = if module.readings.moves { ", joints" } else { "" };
     out.code(&format!("use super::super::{{DH, N, NAME, {symbolic}Posture{joints}}};"));

@@ -42,7 +42,7 @@ pub(super) fn module(module: &Module, style: &Rust) -> String {
         let mut head = format!("pub fn new({constants}q: &[S; {n}]{extras}) -> Self {{");
         let apart = stage.moves && robot.inverse_kinematics.is_some();
         if apart {
-            let names: String = stage.extras.iter().map(|e| format!(", {}", e.name())).collect();
+            let names = stage.handed_on();
             let joints = format!("Self::at_joints(&joints(q{names}){names})");
             out.within(&head, "}", |out| out.code(&joints));
             out.blank();
@@ -137,8 +137,7 @@ pub(super) fn values(
     of_readings: bool,
 ) {
     if of_readings && stage.moves && posture.reads_joints() {
-        let extras = stage.extras.iter().map(|e| format!(", {}", e.name()));
-        out.code(&format!("let q = joints(q{});", extras.collect::<String>()));
+        out.code(&format!("let q = joints(q{});", stage.handed_on()));
     }
     if !posture.angles.is_empty() {
         let mut sums = Vec::new();

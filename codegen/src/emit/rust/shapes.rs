@@ -37,29 +37,26 @@ fn shape(held: &Held, n: usize) -> Shape {
     }
 }
 
+/// Poses and numbers as they are written, in their arrangement.
+fn arranged(held: &Held, n: usize, [pose, number]: [&str; 2]) -> String {
+    match shape(held, n) {
+        Shape::Pose => pose.to_string(),
+        Shape::Poses(n) => format!("[{pose}; {n}]"),
+        Shape::Scalar => number.to_string(),
+        Shape::Vector(rows) => format!("[{number}; {rows}]"),
+        Shape::Matrix(rows, columns) => format!("[[{number}; {rows}]; {columns}]"),
+        Shape::Stack(rows, columns, n) => format!("[[[{number}; {rows}]; {columns}]; {n}]"),
+    }
+}
+
 /// The type that a function returns, without `Result`.
 pub(super) fn ty(held: &Held, n: usize) -> String {
-    match shape(held, n) {
-        Shape::Pose => "Pose<S>".to_string(),
-        Shape::Poses(n) => format!("[Pose<S>; {n}]"),
-        Shape::Scalar => "S".to_string(),
-        Shape::Vector(rows) => format!("[S; {rows}]"),
-        Shape::Matrix(rows, columns) => format!("[[S; {rows}]; {columns}]"),
-        Shape::Stack(rows, columns, n) => format!("[[[S; {rows}]; {columns}]; {n}]"),
-    }
+    arranged(held, n, ["Pose<S>", "S"])
 }
 
 /// A value of the type with every entry `zero`.
 pub(super) fn zero(held: &Held, n: usize) -> String {
-    let pose = "Pose { rotation: [[zero; 3]; 3], position: [zero; 3] }";
-    match shape(held, n) {
-        Shape::Pose => pose.to_string(),
-        Shape::Poses(n) => format!("[{pose}; {n}]"),
-        Shape::Scalar => "zero".to_string(),
-        Shape::Vector(rows) => format!("[zero; {rows}]"),
-        Shape::Matrix(rows, columns) => format!("[[zero; {rows}]; {columns}]"),
-        Shape::Stack(rows, columns, n) => format!("[[[zero; {rows}]; {columns}]; {n}]"),
-    }
+    arranged(held, n, ["Pose { rotation: [[zero; 3]; 3], position: [zero; 3] }", "zero"])
 }
 
 /// The place of column-major entry `entry`.

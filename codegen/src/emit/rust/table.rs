@@ -10,7 +10,6 @@ use super::RustOptions;
 use super::style::Rust;
 use crate::emit::lines::Lines;
 use crate::ir::{Constants, Module};
-use crate::number::Number;
 use crate::robot::{Angle, CLOSED_FORM, Convention, Entry, Joint, Motion, Quantity, Robot, Value};
 
 /// Imports, name, number of joints, table.
@@ -29,37 +28,19 @@ pub(super) fn header(module: &Module, alone: bool, options: &RustOptions) -> Str
     });
     out.wrapped(&legend(module), "// ");
     let outputs = robot.generated();
-    let used = |name: &'static str, used: bool| used.then_some(name);
-    let poses = outputs.iter().any(|o| matches!(o.form(), Form::Pose | Form::Poses));
-    let numeric = robot.symbols().is_empty();
     let inverse = robot.inverse_kinematics.is_some();
     let stepped = module.functions().any(|function| function.name() == CLOSED_FORM);
-    let set_points = robot.has_set_points();
-    let imports = [
-        Some("Arm"),
-        used("Convention", numeric),
-        Some("DhRow"),
-        used("Elastic", set_points),
-        Some("Error"),
-        used("Gives", set_points),
-        used("Inverse", inverse),
-        used("JointValues", inverse),
-        Some("Kernels"),
-        Some("Motion"),
-        used("Numeric", numeric),
-        Some("Output"),
-        used("Pose", poses || inverse),
-        used("Row", numeric),
-        Some("Scalar"),
-        used("Solutions", inverse),
-        used("Steps", inverse),
-        used("Unstable", outputs.iter().any(|o| o.is_fallible())),
-        Some("fill"),
-        Some("has"),
-        used("unloaded", inverse && stepped),
+    let poses = outputs.iter().any(|o| matches!(o.form(), Form::Pose | Form::Poses));
+    let uses = [
+        (true, "Arm DhRow Error Kernels Motion Output Scalar fill has"),
+        (robot.symbols().is_empty(), "Convention Numeric Row"),
+        (robot.has_set_points(), "Elastic Gives"),
+        (inverse, "Inverse JointValues Solutions Steps"),
+        (poses || inverse, "Pose"),
+        (outputs.iter().any(|o| o.is_fallible()), "Unstable"),
+        (inverse && stepped, "unloaded"),
     ];
-    let imports = imports.into_iter().flatten().collect::<Vec<_>>().join(", ");
-    out.code(&format!("use {}::{{{imports}}};", options.kernels));
+    imports(&mut out, options, &uses);
     out.blank();
     out.doc("The arm's name.");
     out.code(&format!("pub const NAME: &str = {:?};", robot.name));
@@ -146,10 +127,8 @@ fn row(joint: &Joint) -> String {
     format!("| {} | {theta} | {d} | {a} | {alpha} | {beta} | {stiffness} |", joint.name)
 }
 
-/// The structs of symbolic parameters and of what is worked out from them once.
-pub(super) fn parameters(robot: &Robot, constants: &Constants) -> String {
-    let mut out = Lines::at(0);
-    let style = Rust { fused: false, constants: "p" };
+/// The struct of symbolic parameters.
+pub(super) fn symbols(out: &mut Lines, robot: &Robot) {
     out.blank();
     out.doc("The table's symbolic link parameters.");
     out.code("#[allow(non_snake_case)]");
@@ -160,6 +139,13 @@ pub(super) fn parameters(robot: &Robot, constants: &Constants) -> String {
             out.code(&format!("pub {}: S,", symbol.name));
         }
     });
+}
+
+/// The structs of symbolic parameters and of what is worked out from them once.
+pub(super) fn parameters(robot: &Robot, constants: &Constants) -> String {
+    let mut out = Lines::at(0);
+    let style = Rust { fused: false, constants: "p" };
+    symbols(&mut out, robot);
     out.blank();
     out.doc("What the functions need of the parameters, worked out once.");
     out.code("#[allow(non_snake_case)]");
@@ -186,9 +172,9 @@ pub(super) fn parameters(robot: &Robot, constants: &Constants) -> String {
 
 /// The table in numbers.
 pub(super) fn numeric(out: &mut Lines, robot: &Robot, (generic, target): (&str, &str)) {
-    let number = |value: &Value| format!("{:?}", value.number().map_or(0.0, Number::to_f64));
+    let number = |value: &Value| format!("{:?}", value.or_zero());
     let three = |values: &[Value; 3]| format!("[{}]", values.each_ref().map(number).join(", "));
-    let radians = |angle: &Angle| format!("{:?}", angle.radians().unwrap_or_default());
+    let radians = |angle: &Angle| format!("{:?}", angle.or_zero());
     out.blank();
     out.within(&format!("impl{generic} Numeric<N> for {target} {{"), "}", |out| {
         out.code(&format!("const CONVENTION: Convention = Convention::{:?};", robot.convention));
@@ -211,6 +197,14 @@ pub(super) fn numeric(out: &mut Lines, robot: &Robot, (generic, target): (&str, 
             }
         });
     });
+}
+
+/// What of the kernels is used, by names with spaces between them: in the order in which rustfmt has it.
+pub(super) fn imports(out: &mut Lines, options: &RustOptions, uses: &[(bool, &str)]) {
+    let used = uses.iter().filter(|(used, _)| *used);
+    let mut names: Vec<&str> = used.flat_map(|(_, names)| names.split(' ')).collect();
+    names.sort_unstable();
+    out.code(&format!("use {}::{{{}}};", options.kernels, names.join(", ")));
 }
 
 /// The outputs of a module.

@@ -4,11 +4,9 @@
 use core::f64::consts::{FRAC_PI_2, PI};
 
 use crate::number::Number;
+use crate::robot::pi::{ROUNDED_DENOMINATORS, rounded_multiple};
 use crate::robot::space::{Frame, Vector};
 use crate::robot::{Angle, Value};
-
-/// Denominators of π at which a rounded decimal is recognised, as the robot file's reader does.
-const ROUNDED: [f64; 5] = [1.0, 2.0, 3.0, 4.0, 6.0];
 
 /// The largest denominator of an exact multiple.
 const LARGEST: u32 = 12;
@@ -21,22 +19,18 @@ const NEAR: f64 = 1e-9;
 
 /// The multiple of π that a number with three decimals or more is a rounding of: π/2 of `1.5708`.
 pub fn meant(x: f64) -> Option<f64> {
-    let text = format!("{x:?}");
+    let text = format!("{:?}", x.abs());
     let decimals = text.split_once('.').map_or(0, |(_, behind)| behind.len());
-    if text.contains('e') || !(3..=20).contains(&decimals) || x.abs() > 4.0 * PI {
+    if text.contains('e') || !(3..=20).contains(&decimals) {
         return None;
     }
-    let step = 10_f64.powi(-(decimals as i32));
-    ROUNDED.into_iter().find_map(|n| {
-        let k = (x * n / PI).round();
-        let exact = k * PI / n;
-        let rounded = (x - exact).abs() <= 0.5 * step * (1.0 + 1e-9);
-        let cut = decimals >= 4 && (0.0..step).contains(&(exact.abs() - x.abs()));
-        let single = x == f64::from(exact as f32);
-        // Differences of roundings, such as the 1.570796326589793 of some descriptions.
-        let near = (x - exact).abs() <= NEAR;
-        (k != 0.0 && (rounded || cut || single || near)).then_some(exact)
-    })
+    let exact = rounded_multiple(&text).map(|r| *r.numer() as f64 * PI / *r.denom() as f64);
+    // Differences of roundings, such as the 1.570796326589793 of some descriptions.
+    let near = || {
+        let each = ROUNDED_DENOMINATORS.map(|n| (x * n as f64 / PI).round() * PI / n as f64);
+        each.into_iter().find(|exact| *exact != 0.0 && (x - exact).abs() <= NEAR)
+    };
+    exact.map(|exact| exact.copysign(x)).or_else(near).filter(|_| x.abs() <= 4.0 * PI)
 }
 
 /// Sine and cosine; exactly 0, 1 and −1 at the multiples of π/2.

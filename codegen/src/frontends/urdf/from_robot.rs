@@ -3,7 +3,7 @@
 use super::angle::roll_pitch_yaw;
 use super::chain::{Chain, Step};
 use super::masses::Lump;
-use crate::robot::space::{Frame, norm, times};
+use crate::robot::space::Frame;
 use crate::robot::{self, Angle, Convention, Joint, Robot, Value};
 
 impl Chain {
@@ -21,7 +21,7 @@ impl Chain {
             let twist = roll_pitch_yaw([joint.alpha.radians()?, 0.0, 0.0]);
             let tilt = twist.then(&roll_pitch_yaw([0.0, joint.beta.radians()?, 0.0]));
             let length = Frame::moved([number(&joint.a)?, 0.0, 0.0]);
-            let com = vector(&joint.com)?;
+            let com = numbers(&joint.com)?;
             let (before, behind) = match robot.convention {
                 Convention::Modified => (tilt.then(&length).then(&along_z), Frame::IDENTITY),
                 Convention::Standard => (along_z, length.then(&tilt)),
@@ -44,14 +44,17 @@ impl Chain {
             tip: "tool".to_owned(),
             steps,
             end: end.then(&tool),
-            gravity: turned.point(vector(&robot.gravity)?),
+            gravity: turned.point(numbers(&robot.gravity)?),
             remarks: Vec::new(),
         })
     }
 }
 
 fn fixed(frame: &robot::Frame) -> Option<Frame> {
-    Some(Frame { origin: vector(&frame.translation)?, ..turned(angles(&frame.rotation)?) })
+    Some(Frame {
+        origin: numbers(&frame.translation)?,
+        ..Frame::by_rotation(angles(&frame.rotation)?)
+    })
 }
 
 fn step(joint: &Joint, before: Frame, lump: Lump) -> Option<Step> {
@@ -71,10 +74,6 @@ fn number(value: &Value) -> Option<f64> {
     value.number().map(crate::number::Number::to_f64)
 }
 
-fn vector(values: &[Value; 3]) -> Option<[f64; 3]> {
-    numbers(values)
-}
-
 fn numbers<const N: usize>(values: &[Value; N]) -> Option<[f64; N]> {
     let mut found = [0.0; N];
     for (found, value) in found.iter_mut().zip(values) {
@@ -85,10 +84,4 @@ fn numbers<const N: usize>(values: &[Value; N]) -> Option<[f64; N]> {
 
 fn angles([x, y, z]: &[Angle; 3]) -> Option<[f64; 3]> {
     Some([x.radians()?, y.radians()?, z.radians()?])
-}
-
-/// By a rotation vector.
-fn turned(rotation: [f64; 3]) -> Frame {
-    let angle = norm(rotation);
-    if angle == 0.0 { Frame::IDENTITY } else { Frame::turned(times(rotation, 1.0 / angle), angle) }
 }

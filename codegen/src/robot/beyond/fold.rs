@@ -2,7 +2,7 @@
 
 use super::super::decimal::of_double;
 use super::super::model::{Angle, Convention, Frame, Joint, Motion, Robot, Value};
-use super::super::space::{Frame as Moved, norm, times};
+use super::super::space::{Frame as Moved, times};
 use super::read::Found;
 use super::{Beyond, Law, Move, Place, Spring};
 use crate::number::Number;
@@ -67,8 +67,8 @@ impl Robot {
         if found.id != "gravity_tilt" {
             return self.fold(found.id, found.place, &found.values).is_some();
         }
-        let tilt = turn([found.values[0].1, found.values[1].1, 0.0]);
-        self.gravity = tilt.direction(self.gravity.each_ref().map(double)).map(value);
+        let tilt = Moved::by_rotation([found.values[0].1, found.values[1].1, 0.0]);
+        self.gravity = tilt.direction(self.gravity.each_ref().map(Value::or_zero)).map(value);
         true
     }
 }
@@ -76,24 +76,25 @@ impl Robot {
 /// Adds mass at the link's centre; of a link without any that is the middle of its chord.
 fn weigh(joint: &mut Joint, convention: Convention, by: f64) {
     if !is_weighed(joint) {
-        let (a, d) = (double(&joint.a), double(&joint.d));
-        let [alpha, beta] = [&joint.alpha, &joint.beta].map(|angle| angle.radians().unwrap_or(0.0));
+        let (a, d) = (joint.a.or_zero(), joint.d.or_zero());
+        let [alpha, beta] = [joint.alpha.or_zero(), joint.beta.or_zero()];
         let chord = match convention {
             Convention::Standard => {
-                let row = turn([alpha, 0.0, 0.0]).then(&turn([0.0, beta, 0.0]));
+                let row = Moved::by_rotation([alpha, 0.0, 0.0])
+                    .then(&Moved::by_rotation([0.0, beta, 0.0]));
                 row.inverse().direction([a, 0.0, d])
             }
             Convention::Modified => [0.0, 0.0, d],
         };
         joint.com = times(chord, -0.5).map(value);
     }
-    let whole = joint.mass.as_ref().map_or(0.0, double) + by;
+    let whole = joint.mass.as_ref().map_or(0.0, Value::or_zero) + by;
     joint.mass = Some(value(whole.max(0.0)));
 }
 
 /// Whether the row says where its link is weighed.
 fn is_weighed(joint: &Joint) -> bool {
-    joint.mass.as_ref().is_some_and(|mass| double(mass) != 0.0)
+    joint.mass.as_ref().is_some_and(|mass| mass.or_zero() != 0.0)
         || !joint.com.iter().all(Value::is_zero)
 }
 
@@ -141,7 +142,7 @@ impl Beyond {
 
 /// Adds to the joint's compliance; what is no longer compliant is rigid.
 fn soften(joint: &mut Joint, by: f64) {
-    let own = joint.stiffness.as_ref().map_or(0.0, |k| 1.0 / double(k));
+    let own = joint.stiffness.as_ref().map_or(0.0, |k| 1.0 / k.or_zero());
     let whole = own + by;
     joint.stiffness = (whole > RIGID * own).then(|| value(1.0 / whole));
 }
@@ -151,20 +152,15 @@ fn soften(joint: &mut Joint, by: f64) {
 fn bend(joint: &mut Joint, bending: f64, torsion: f64) -> Option<&'static str> {
     let beam = joint.beam.as_mut()?;
     let softened = |modulus: &Value, moment: &Value, by: f64| {
-        let own = 1.0 / (double(modulus) * double(moment));
+        let own = 1.0 / (modulus.or_zero() * moment.or_zero());
         let whole = own + by;
-        (whole > RIGID * own).then(|| value(1.0 / (double(modulus) * whole)))
+        (whole > RIGID * own).then(|| value(1.0 / (modulus.or_zero() * whole)))
     };
     let (e, g, section) = (&beam.youngs_modulus, &beam.shear_modulus, &beam.section);
     let [y, z] = [&section.iy, &section.iz].map(|moment| softened(e, moment, bending));
     let j = softened(g, &section.j, torsion);
     (beam.section.iy, beam.section.iz, beam.section.j) = (y?, z?, j?);
     Some("the beam's iy, iz and j")
-}
-
-/// A number; the readers let nothing stand that is not finite, and symbols are refused before.
-fn double(value: &Value) -> f64 {
-    value.number().map_or(0.0, Number::to_f64)
 }
 
 fn number(x: f64) -> Number {
@@ -178,29 +174,25 @@ fn value(x: f64) -> Value {
 /// What nothing is added to stays exact.
 fn add(entry: &mut Value, by: f64) {
     if by != 0.0 {
-        *entry = value(double(entry) + by);
+        *entry = value(entry.or_zero() + by);
     }
 }
 
 fn add_angle(entry: &mut Angle, by: f64) {
     if by != 0.0 {
-        *entry = Angle::Radians(number(entry.radians().unwrap_or(0.0) + by));
+        *entry = Angle::Radians(number(entry.or_zero() + by));
     }
-}
-
-fn turn(vector: [f64; 3]) -> Moved {
-    let angle = norm(vector);
-    if angle == 0.0 { Moved::IDENTITY } else { Moved::turned(times(vector, 1.0 / angle), angle) }
 }
 
 /// A displacement as a transform: the origin moves, and the frame turns about its moved origin.
 fn displacement(v: [f64; 6]) -> Moved {
-    Moved::moved([v[0], v[1], v[2]]).then(&turn([v[3], v[4], v[5]]))
+    Moved::moved([v[0], v[1], v[2]]).then(&Moved::by_rotation([v[3], v[4], v[5]]))
 }
 
 fn placed(frame: &Frame) -> Moved {
-    let rotation = frame.rotation.each_ref().map(|angle| angle.radians().unwrap_or(0.0));
-    Moved::moved(frame.translation.each_ref().map(double)).then(&turn(rotation))
+    let rotation = frame.rotation.each_ref().map(Angle::or_zero);
+    Moved::moved(frame.translation.each_ref().map(Value::or_zero))
+        .then(&Moved::by_rotation(rotation))
 }
 
 fn frame(moved: Moved) -> Frame {

@@ -1,11 +1,10 @@
 //! An `[[effect]]` table as kernels understand it: its place, its form, its numbers.
 
 use super::super::model::{Effect, Entry, Joint, Motion, Quantity as Given, Robot, Value};
-use super::super::suggest::closest;
+use super::super::suggest::advice;
 use super::fold::has_centre;
 use super::motion::is_of_motion;
 use super::{EffectError, Place, Quantity};
-use crate::number::Number;
 
 /// The largest order of a periodic effect.
 const MOST_ORDERS: usize = 1000;
@@ -37,93 +36,50 @@ enum At {
 /// A key, what it is at a revolute and at a prismatic joint, and whether it may not be negative.
 type Key = (&'static str, [Quantity; 2], bool);
 
-use Quantity::{
-    Angle, AnglePerKelvin, AnglePerLength, AnglePerMoment, AnglePerMomentCubed, Flexibility,
-    Length, LengthPerAngle, LengthPerForce, LengthPerForceCubed, LengthPerKelvin, Mass, PerKelvin,
-    Ratio,
-};
+/// The effects, one to a line: `identifier at place, the key of its form: keys`. Of a key what it is, at a prismatic joint
+/// behind `|` where that is something else, and `>= 0` where it may not be negative.
+macro_rules! effects {
+    ($($id:ident at $at:ident $(, $form:ident)?: $($key:ident $of:ident $(| $other:ident)? $(>= $zero:tt)?),*;)*) => {
+        /// What kernels can be made of: identifier, place, the key of its form, its keys.
+        const EFFECTS: &[(&str, At, Option<&str>, &[Key])] = &[$((
+            stringify!($id),
+            At::$at,
+            effects!(@form $($form)?),
+            &[$((stringify!($key), effects!(@of $of $($other)?), effects!(@bound $($zero)?))),*],
+        )),*];
+    };
+    (@form) => { None };
+    (@form $form:ident) => { Some(stringify!($form)) };
+    (@of $of:ident) => { [Quantity::$of; 2] };
+    (@of $of:ident $other:ident) => { [Quantity::$of, Quantity::$other] };
+    (@bound) => { false };
+    (@bound 0) => { true };
+}
 
-const SIX: &[Key] = &[
-    ("x", [Length; 2], false),
-    ("y", [Length; 2], false),
-    ("z", [Length; 2], false),
-    ("rx", [Angle; 2], false),
-    ("ry", [Angle; 2], false),
-    ("rz", [Angle; 2], false),
-];
-const POINT: &[Key] =
-    &[("x", [Length; 2], false), ("y", [Length; 2], false), ("z", [Length; 2], false)];
-
-/// What kernels can be made of: identifier, place, the key of its form, its keys.
-const EFFECTS: &[(&str, At, Option<&str>, &[Key])] = &[
-    ("joint_offset", At::Joint, None, &[("offset", [Angle, Length], false)]),
-    (
-        "joint_compliance",
-        At::Joint,
-        None,
-        &[("compliance", [AnglePerMoment, LengthPerForce], false)],
-    ),
-    ("backlash", At::Joint, None, &[("width", [Angle, Length], true)]),
-    ("joint_ratio", At::Joint, None, &[("ratio", [Ratio; 2], false)]),
-    ("friction_hysteresis", At::Joint, None, &[("windup", [AnglePerMoment, LengthPerForce], true)]),
-    (
-        "joint_hardening",
-        At::Joint,
-        None,
-        &[("cubic", [AnglePerMomentCubed, LengthPerForceCubed], false)],
-    ),
-    (
-        "transmission_error",
-        At::Revolute,
-        Some("order"),
-        &[("cos", [Angle; 2], false), ("sin", [Angle; 2], false)],
-    ),
-    ("joint_coupling", At::Joint, Some("joint"), &[("ratio", [Ratio; 2], false)]),
-    (
-        "link_compliance",
-        At::Link,
-        None,
-        &[("bending", [Flexibility; 2], false), ("torsion", [Flexibility; 2], false)],
-    ),
-    (
-        "bearing_compliance",
-        At::Joint,
-        None,
-        &[("tilt_x", [AnglePerMoment; 2], true), ("tilt_y", [AnglePerMoment; 2], true)],
-    ),
-    ("link_weight", At::Link, None, &[("mass", [Mass; 2], false)]),
-    ("wrench_scale", At::Tool, None, &[("scale", [Ratio; 2], false)]),
-    ("payload_com", At::Tool, None, POINT),
-    ("link_com", At::Heavy, None, POINT),
-    ("gravity_tilt", At::Base, None, &[("x", [Angle; 2], false), ("y", [Angle; 2], false)]),
-    (
-        "base_compliance",
-        At::Base,
-        None,
-        &[
-            ("rock_x", [AnglePerMoment; 2], true),
-            ("rock_y", [AnglePerMoment; 2], true),
-            ("rock", [AnglePerMoment; 2], true),
-            ("give", [LengthPerForce; 2], true),
-        ],
-    ),
-    ("thermal_growth", At::Arm, None, &[("expansion", [PerKelvin; 2], false)]),
-    ("joint_warming", At::Joint, None, &[("rate", [AnglePerKelvin, LengthPerKelvin], false)]),
-    (
-        "link_geometry",
-        At::Link,
-        None,
-        &[
-            ("theta", [Angle; 2], false),
-            ("d", [Length; 2], false),
-            ("a", [Length; 2], false),
-            ("alpha", [Angle; 2], false),
-            ("beta", [Angle; 2], false),
-        ],
-    ),
-    ("base_frame", At::Base, None, SIX),
-    ("tool_frame", At::Tool, None, SIX),
-];
+effects! {
+    joint_offset at Joint: offset Angle | Length;
+    joint_compliance at Joint: compliance AnglePerMoment | LengthPerForce;
+    backlash at Joint: width Angle | Length >= 0;
+    joint_ratio at Joint: ratio Ratio;
+    friction_hysteresis at Joint: windup AnglePerMoment | LengthPerForce >= 0;
+    joint_hardening at Joint: cubic AnglePerMomentCubed | LengthPerForceCubed;
+    transmission_error at Revolute, order: cos Angle, sin Angle;
+    joint_coupling at Joint, joint: ratio Ratio;
+    link_compliance at Link: bending Flexibility, torsion Flexibility;
+    bearing_compliance at Joint: tilt_x AnglePerMoment >= 0, tilt_y AnglePerMoment >= 0;
+    link_weight at Link: mass Mass;
+    wrench_scale at Tool: scale Ratio;
+    payload_com at Tool: x Length, y Length, z Length;
+    link_com at Heavy: x Length, y Length, z Length;
+    gravity_tilt at Base: x Angle, y Angle;
+    base_compliance at Base: rock_x AnglePerMoment >= 0, rock_y AnglePerMoment >= 0,
+        rock AnglePerMoment >= 0, give LengthPerForce >= 0;
+    thermal_growth at Arm: expansion PerKelvin;
+    joint_warming at Joint: rate AnglePerKelvin | LengthPerKelvin;
+    link_geometry at Link: theta Angle, d Length, a Length, alpha Angle, beta Angle;
+    base_frame at Base: x Length, y Length, z Length, rx Angle, ry Angle, rz Angle;
+    tool_frame at Tool: x Length, y Length, z Length, rx Angle, ry Angle, rz Angle;
+}
 
 /// What no kernel can be made of, and why.
 const REFUSED: &[(&str, &str)] = &[
@@ -157,13 +113,10 @@ impl Found {
             let help = "take the [[effect]] out of a copy of the file to go on without it";
             return Err(wrong(&table.at, message, Some(help.to_owned())));
         }
-        let known = || EFFECTS.iter().map(|(id, ..)| *id);
         let Some((id, at, form, keys)) = EFFECTS.iter().find(|(id, ..)| id == name) else {
-            return Err(wrong(
-                &table.id.at,
-                format!("unknown effect `{name}`"),
-                advice(name, known()),
-            ));
+            let known: Vec<&str> = EFFECTS.iter().map(|(id, ..)| *id).collect();
+            let help = Some(advice(name, &known));
+            return Err(wrong(&table.id.at, format!("unknown effect `{name}`"), help));
         };
         let place = at.place(id, table, robot)?;
         if *id == "link_weight" && !has_centre(&robot.joints[place.row()], robot.convention) {
@@ -187,11 +140,8 @@ impl Found {
         for number in table.numbers.iter().filter(|n| !is_form(id, &n.key)) {
             let Some(index) = keys.iter().position(|key| key.0 == number.key) else {
                 let message = format!("unknown number `{}` of {id} at {place}", number.key);
-                return Err(wrong(
-                    &number.at,
-                    message,
-                    advice(&number.key, keys.iter().map(|k| k.0)),
-                ));
+                let known: Vec<&str> = keys.iter().map(|key| key.0).collect();
+                return Err(wrong(&number.at, message, Some(advice(&number.key, &known))));
             };
             let (key, quantity, positive) = keys[index];
             let quantity = match id {
@@ -215,24 +165,20 @@ fn wrong(at: &super::Spot, message: String, help: Option<String>) -> EffectError
     EffectError { at: at.clone(), message, help }
 }
 
-/// The nearest of some words, else all of them.
-fn advice<'n>(found: &str, known: impl Iterator<Item = &'n str> + Clone) -> Option<String> {
-    let all = || format!("known here: {}", known.clone().collect::<Vec<_>>().join(", "));
-    Some(closest(found, known.clone()).map_or_else(all, |near| format!("did you mean `{near}`?")))
-}
-
 /// What is taken away at most of what the table has: nothing is stiffer than rigid, nor lighter than
 /// nothing.
 fn least(id: &str, key: &str, joint: &Joint) -> f64 {
-    let double = |value: &Value| value.number().map_or(0.0, Number::to_f64);
     let beam = joint.beam.as_ref();
     let of = |stiffness: Option<f64>| stiffness.map_or(0.0, |k| -1.0 / k);
     match (id, key) {
-        ("joint_compliance", _) => of(joint.stiffness.as_ref().map(double)),
-        ("link_weight", _) => -joint.mass.as_ref().map_or(0.0, double),
-        ("link_compliance", "bending") => of(beam
-            .map(|b| double(&b.youngs_modulus) * double(&b.section.iy).max(double(&b.section.iz)))),
-        ("link_compliance", _) => of(beam.map(|b| double(&b.shear_modulus) * double(&b.section.j))),
+        ("joint_compliance", _) => of(joint.stiffness.as_ref().map(Value::or_zero)),
+        ("link_weight", _) => -joint.mass.as_ref().map_or(0.0, Value::or_zero),
+        ("link_compliance", "bending") => of(beam.map(|b| {
+            b.youngs_modulus.or_zero() * b.section.iy.or_zero().max(b.section.iz.or_zero())
+        })),
+        ("link_compliance", _) => {
+            of(beam.map(|b| b.shear_modulus.or_zero() * b.section.j.or_zero()))
+        }
         _ => f64::NEG_INFINITY,
     }
 }
@@ -249,9 +195,9 @@ fn is_form(id: &str, key: &str) -> bool {
 
 fn coupling(this: Motion, other: Motion) -> Quantity {
     match (this, other) {
-        (Motion::Revolute, Motion::Prismatic) => AnglePerLength,
-        (Motion::Prismatic, Motion::Revolute) => LengthPerAngle,
-        _ => Ratio,
+        (Motion::Revolute, Motion::Prismatic) => Quantity::AnglePerLength,
+        (Motion::Prismatic, Motion::Revolute) => Quantity::LengthPerAngle,
+        _ => Quantity::Ratio,
     }
 }
 
@@ -274,7 +220,8 @@ impl At {
         let found = &table.place.value;
         found.parse().ok().filter(|place| places.contains(place)).ok_or_else(|| {
             let names: Vec<String> = places.iter().map(Place::to_string).collect();
-            let help = advice(found, names.iter().map(String::as_str));
+            let names: Vec<&str> = names.iter().map(String::as_str).collect();
+            let help = Some(advice(found, &names));
             wrong(&table.place.at, format!("`{found}` is no place of {id}"), help)
         })
     }

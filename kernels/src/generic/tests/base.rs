@@ -3,39 +3,24 @@
 use std::string::ToString;
 use std::vec::Vec;
 
-use nalgebra::{DVector, Isometry3, Matrix3, Vector3};
+use nalgebra::{DVector, Vector3};
 
 use super::support::Random;
+use crate::Output;
 use crate::generic::{Arm, BaseParameter, Convention, Drive, Joint};
-use crate::{Motion, Output};
 
 const RIGHT: f64 = core::f64::consts::FRAC_PI_2;
 
 /// Joints that turn, each with alpha, a and d.
 fn arm(convention: Convention, rows: &[[f64; 3]]) -> Arm {
-    let joint = |[alpha, a, d]: &[f64; 3]| Joint {
-        motion: Motion::Revolute,
-        theta: 0.0,
-        d: *d,
-        a: *a,
-        alpha: *alpha,
-        beta: 0.0,
-        compliance: 0.0,
-        mass: 0.0,
-        com: Vector3::zeros(),
-        inertia: Matrix3::zeros(),
-        drive: Drive::default(),
-        limits: None,
-        beam: None,
-    };
+    let joint =
+        |[alpha, a, d]: &[f64; 3]| Joint { d: *d, a: *a, alpha: *alpha, ..Joint::default() };
     Arm {
         name: "bare".to_string(),
         convention,
         joints: rows.iter().map(joint).collect(),
-        base: Isometry3::identity(),
-        tool: Isometry3::identity(),
-        tool_rotation_vector: Vector3::zeros(),
         gravity: Vector3::new(0.0, 0.0, -9.81),
+        ..Arm::default()
     }
 }
 

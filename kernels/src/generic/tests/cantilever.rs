@@ -4,7 +4,7 @@ use core::f64::consts::FRAC_PI_2;
 use std::string::ToString;
 use std::vec;
 
-use nalgebra::{Isometry3, Vector3, Vector6};
+use nalgebra::{Vector3, Vector6};
 
 use crate::Motion;
 use crate::generic::{Arm, Beam, Convention, Joint};
@@ -31,29 +31,13 @@ fn link(convention: Convention, motion: Motion, a: f64, d: f64) -> Arm {
         density: RHO,
         shear_coefficient: Some(KAPPA),
     };
-    let joint = Joint {
-        motion,
-        theta: 0.0,
-        d,
-        a,
-        alpha: 0.0,
-        beta: 0.0,
-        compliance: 0.0,
-        mass: 0.0,
-        com: Vector3::zeros(),
-        inertia: Default::default(),
-        drive: Default::default(),
-        limits: None,
-        beam: Some(beam),
-    };
+    let joint = Joint { motion, d, a, beam: Some(beam), ..Joint::default() };
     Arm {
         name: "cantilever".to_string(),
         convention,
         joints: vec![joint],
-        base: Isometry3::identity(),
-        tool: Isometry3::identity(),
-        tool_rotation_vector: Vector3::zeros(),
         gravity: Vector3::new(0.0, 0.0, -9.80665),
+        ..Arm::default()
     }
 }
 

@@ -3,9 +3,8 @@
 use core::f64::consts::FRAC_PI_2;
 use std::string::ToString;
 
-use nalgebra::{DVector, Isometry3, Matrix6, Vector3, Vector6};
+use nalgebra::{DVector, Matrix6, Vector3, Vector6};
 
-use crate::Motion;
 use crate::generic::{Arm, Convention, Joint};
 
 /// d2, d3, d4, RL4, RL6, m.
@@ -23,28 +22,18 @@ fn kr240() -> Arm {
         (-FRAC_PI_2, 0.0, rl6, 4.7e5),
     ];
     let joint = |(alpha, a, d, stiffness): (f64, f64, f64, f64)| Joint {
-        motion: Motion::Revolute,
-        theta: 0.0,
         d,
         a,
         alpha,
-        beta: 0.0,
         compliance: 1.0 / stiffness,
-        mass: 0.0,
-        com: Vector3::zeros(),
-        inertia: Default::default(),
-        drive: Default::default(),
-        limits: None,
-        beam: None,
+        ..Joint::default()
     };
     Arm {
         name: "KUKA KR 240-2".to_string(),
         convention: Convention::Modified,
         joints: rows.map(joint).into(),
-        base: Isometry3::identity(),
-        tool: Isometry3::identity(),
-        tool_rotation_vector: Vector3::zeros(),
         gravity: Vector3::new(0.0, 0.0, -9.80665),
+        ..Arm::default()
     }
 }
 

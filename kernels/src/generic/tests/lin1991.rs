@@ -4,10 +4,9 @@
 use std::string::ToString;
 use std::vec;
 
-use nalgebra::{Isometry3, Vector3, Vector6};
+use nalgebra::{Vector3, Vector6};
 
-use crate::Motion;
-use crate::generic::{Arm, Beam, Convention, Joint};
+use crate::generic::{Arm, Beam, Joint};
 
 const LENGTH: f64 = 24.0;
 const YOUNG: f64 = 10e6;
@@ -25,18 +24,7 @@ fn robot(links: &[(f64, f64)]) -> Arm {
     // So large that a link does not stretch; the weight per inch is density × area × |gravity|.
     let area = 1e12;
     let joint = |&(inertia, weight): &(f64, f64)| Joint {
-        motion: Motion::Revolute,
-        theta: 0.0,
-        d: 0.0,
         a: LENGTH,
-        alpha: 0.0,
-        beta: 0.0,
-        compliance: 0.0,
-        mass: 0.0,
-        com: Vector3::zeros(),
-        inertia: Default::default(),
-        drive: Default::default(),
-        limits: None,
         beam: Some(Beam {
             youngs_modulus: YOUNG,
             shear_modulus: YOUNG,
@@ -47,15 +35,13 @@ fn robot(links: &[(f64, f64)]) -> Arm {
             density: weight / area,
             shear_coefficient: None,
         }),
+        ..Joint::default()
     };
     Arm {
         name: "Lin, Chiang, Cui".to_string(),
-        convention: Convention::Standard,
         joints: links.iter().map(joint).collect(),
-        base: Isometry3::identity(),
-        tool: Isometry3::identity(),
-        tool_rotation_vector: Vector3::zeros(),
         gravity: Vector3::new(0.0, -1.0, 0.0),
+        ..Arm::default()
     }
 }
 

@@ -40,19 +40,7 @@ pub struct Loaded {
 fn row(arm: &Arm, index: usize) -> Arm {
     let mut joint = arm.joints[index].clone();
     (joint.compliance, joint.mass) = (0.0, 0.0);
-    let (tool, still) = (Isometry3::identity(), Vector3::zeros());
-    let name = String::new();
-    let convention = arm.convention;
-    let base = nalgebra::Isometry3::identity();
-    Arm {
-        name,
-        convention,
-        joints: vec![joint],
-        base,
-        tool,
-        tool_rotation_vector: still,
-        gravity: still,
-    }
+    Arm { convention: arm.convention, joints: vec![joint], ..Arm::default() }
 }
 
 impl Loaded {

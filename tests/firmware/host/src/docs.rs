@@ -53,11 +53,11 @@ pub fn table(board: Board, figures: &[Figure], budgets: &Budgets) -> String {
     let mut text = format!(
         "\n**{}**\n\n| kernel | instructions | at most | stack B | at most | flash B | at most | \
          branches |\n|---|---|---|---|---|---|---|---|\n",
-        board.name()
+        board.name
     );
     for figure in figures {
         let Figure { name, fewest, most, stack, flash, branches } = figure;
-        let Some(budget) = budgets.get(board.key()).and_then(|of| of.get(name)) else { continue };
+        let Some(budget) = budgets.get(board.key).and_then(|of| of.get(name)) else { continue };
         let instructions = match fewest == most {
             true => most.to_string(),
             false => format!("{fewest} to {most}"),

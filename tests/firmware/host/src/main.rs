@@ -53,17 +53,15 @@ fn full(write: bool) -> Result<(), Failure> {
         tables.push_str(&format!("- {version}\n"));
     }
     let mut faults = Vec::new();
-    for board in Board::EACH {
-        println!("\n{}", board.name());
-        let figures = match board {
-            Board::M4 => prove::<f32>(&tools, board, true)?,
-            Board::M7 => prove::<f64>(&tools, board, false)?,
-        };
+    let each = [(Board::M4, prove::<f32> as Proof, true), (Board::M7, prove::<f64>, false)];
+    for (board, prove, in_c) in each {
+        println!("\n{}", board.name);
+        let figures = prove(&tools, board, in_c)?;
         let table = docs::table(board, &figures, &budgets);
         println!("{table}");
         tables.push_str(&table);
-        let of_board = budgets.get(board.key()).cloned().unwrap_or_default();
-        faults.extend(budget::exceeded(board.name(), &figures, &of_board));
+        let of_board = budgets.get(board.key).cloned().unwrap_or_default();
+        faults.extend(budget::exceeded(board.name, &figures, &of_board));
     }
     if write {
         docs::write(&tools.workspace.join("../../docs/firmware.md"), &tables)?;
@@ -73,6 +71,9 @@ fn full(write: bool) -> Result<(), Failure> {
         false => Err(faults.join("\n       ")),
     }
 }
+
+/// What [`prove`] is for the numbers of a board.
+type Proof = fn(&Tools, Board, bool) -> Result<Vec<figures::Figure>, Failure>;
 
 /// Everything about one board; in C too where asked.
 fn prove<S: Real>(

@@ -62,7 +62,7 @@ impl Tools {
     /// Cargo, for a board: `cargo build` of the image with everything but what to build.
     fn cargo(&self, board: Board) -> Command {
         let mut command = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-        let mut flags = board.rustflags().to_string();
+        let mut flags = board.rustflags.to_string();
         command.current_dir(&self.workspace).args(["build", "--release", "--target", TARGET]);
         command.args(["--package", "stiffarm-firmware-image", "--target-dir"]).arg(&self.target);
         if let Some(prefix) = &self.prefix {
@@ -94,7 +94,7 @@ impl Tools {
         objects: &[PathBuf],
         name: &str,
     ) -> Result<PathBuf, Failure> {
-        let features = [board.features(), features].concat().join(",");
+        let features = [board.features, features].concat().join(",");
         let mut cargo = self.cargo(board);
         cargo.args(["--bin", bin, "--features", &features]);
         if !objects.is_empty() {
@@ -104,7 +104,7 @@ impl Tools {
         succeed(cargo)?;
         // The other board's image of this name lies in the same place.
         let built = self.target.join(TARGET).join("release").join(bin);
-        let kept = self.target.join(format!("{name}-{}.elf", board.key()));
+        let kept = self.target.join(format!("{name}-{}.elf", board.key));
         fs::copy(&built, &kept).map_err(|e| format!("{}: {e}", built.display()))?;
         Ok(kept)
     }
@@ -118,7 +118,7 @@ impl Tools {
         let emulator = self.command("qemu-system-arm");
         qemu.arg("120").arg(emulator.get_program());
         qemu.envs(emulator.get_envs().filter_map(|(key, value)| Some((key, value?))));
-        qemu.args(["-M", board.machine(), "-display", "none", "-monitor", "none"]);
+        qemu.args(["-M", board.machine, "-display", "none", "-monitor", "none"]);
         qemu.args(["-serial", "none", "-semihosting-config", "enable=on,target=native"]);
         qemu.args(["-icount", &format!("shift={SHIFT}"), "-kernel"]).arg(image);
         Ok(succeed(qemu)?.stdout)

@@ -142,10 +142,6 @@ fn across_z([x, y, _]: Vec3) -> Vec3 {
     [-y, x, Expr::ZERO]
 }
 
-fn sum3(g: &mut Graph, parts: &[Vec3]) -> Vec3 {
-    parts.iter().fold(NONE, |sum, part| g.add3(sum, *part))
-}
-
 impl Body {
     /// The loads that the joint's turn, and half of a unit of its rate, take; `load` is what the joint bears. For all that
     /// is carried, `2 B Ψ̇ + I Ψ̈ + S ×̄* f` and `B S + I Ψ̇`.
@@ -177,11 +173,11 @@ impl Body {
                 about(g, &self.flow, swirl, twice),
                 across_z(load.1),
             ];
-            let by_joint = (sum3(g, &forces), sum3(g, &moments));
+            let by_joint = (g.sum3(forces), g.sum3(moments));
             let forces = [g.cross3(way.rate, *first), across_z(self.momentum)];
             let swept = [-self.flow[0][2], -self.flow[1][2], swirl];
             let moments = [about(g, second, across, way.rate), swept];
-            [by_joint, (sum3(g, &forces), sum3(g, &moments))]
+            [by_joint, (g.sum3(forces), g.sum3(moments))]
         };
         taken.map(|(f, m)| (f.map(|c| link.signed(c)), m.map(|c| link.signed(c))))
     }
@@ -234,7 +230,7 @@ impl Way {
         };
         if let Some(slide) = link.slide {
             let turned = g.scale3(link.signed(slide), rate);
-            slip = sum3(g, &[slip, turned, [Expr::ZERO, Expr::ZERO, link.signed(motion.rates[k])]]);
+            slip = g.sum3([slip, turned, [Expr::ZERO, Expr::ZERO, link.signed(motion.rates[k])]]);
         }
         Way { rate, acceleration, weight: [ay, -ax, Expr::ZERO], slip, swing }
     }

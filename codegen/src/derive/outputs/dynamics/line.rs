@@ -182,38 +182,27 @@ fn laid_out(chain: &mut Chain) -> (Vec<Link>, Vec<Turn>) {
         };
         let begins = row == 0 || !lean.is_straight();
         let g = &mut chain.g;
-        let link = if begins {
-            let offset = [a[0], a[1], g.add(a[2], behind)];
-            behind = zero;
-            let (opposite, turn) = (false, turn.clone());
-            Link {
-                begins,
-                lean,
-                opposite,
-                turn,
-                offset,
-                slide,
-                row: RowFrame { lean: Lean::NONE, origin: [zero; 3] },
-                moments: Moments::default(),
-            }
+        let mut offset = a;
+        let (opposite, turned) = if begins {
+            offset[2] = g.add(a[2], core::mem::take(&mut behind));
+            (false, turn.clone())
         } else {
             let before = &links[row - 1];
             let over = lean.0[0].is_half_turn();
             behind = behind.signed(over);
-            let turned = if over { before.turn.negated() } else { before.turn.clone() };
-            let (opposite, turn) = (before.opposite != over, turned.plus(g, &turn));
-            Link {
-                begins,
-                lean,
-                opposite,
-                turn,
-                offset: a,
-                slide,
-                row: RowFrame { lean: Lean::NONE, origin: [zero; 3] },
-                moments: Moments::default(),
-            }
+            let angle = if over { before.turn.negated() } else { before.turn.clone() };
+            (before.opposite != over, angle.plus(g, &turn))
         };
-        links.push(link);
+        links.push(Link {
+            begins,
+            lean,
+            opposite,
+            turn: turned,
+            offset,
+            slide,
+            row: RowFrame { lean: Lean::NONE, origin: [zero; 3] },
+            moments: Moments::default(),
+        });
         own.push(turn);
         let foot = behind;
         behind = chain.g.add(behind, d);

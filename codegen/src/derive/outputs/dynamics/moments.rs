@@ -51,7 +51,7 @@ impl Moments {
         Moments {
             mass: self.mass,
             first: turned(g, turn, k, self.first),
-            second: turned_second(g, turn, k, self.second),
+            second: turned_matrix(g, turn, k, &self.second),
         }
     }
 
@@ -100,40 +100,21 @@ pub(super) fn turned(g: &mut Graph, turn: &Turn, k: usize, v: Vec3) -> Vec3 {
     out
 }
 
-/// `R S Rᵀ` of a turn about axis `k`. In the plane of the turn, with `h = s (S_ii − S_jj) + 2 c S_ij`:
-/// `S_ii − s h`, `S_jj + s h` and `c h − S_ij`.
-fn turned_second(g: &mut Graph, turn: &Turn, k: usize, m: [Vec3; 3]) -> [Vec3; 3] {
+/// `R D Rᵀ` of a turn about axis `k`. In the plane of the turn, with `h = s (D_ii − D_jj) + c (D_ij + D_ji)`:
+/// `D_ii − s h`, `D_jj + s h`, `c h − D_ji` and `c h − D_ij`.
+pub(super) fn turned_matrix(g: &mut Graph, turn: &Turn, k: usize, m: &[Vec3; 3]) -> [Vec3; 3] {
     let (i, j) = ((k + 1) % 3, (k + 2) % 3);
     let (s, c) = turn.sin_cos(g);
     let two = g.number(Number::integer(2));
     let difference = g.sub(m[i][i], m[j][j]);
-    let twice = g.mul(two, m[i][j]);
-    let (across, along) = (g.mul(s, difference), g.mul(c, twice));
-    let h = g.add(across, along);
-    let (sh, ch) = (g.mul(s, h), g.mul(c, h));
-    // By quarters of a turn the sums are single entries.
-    let (ii, jj, ij) = match (s.is_zero(), c.is_zero()) {
-        (true, _) => (m[i][i], m[j][j], m[i][j]),
-        (_, true) => (m[j][j], m[i][i], -m[i][j]),
-        _ => (g.sub(m[i][i], sh), g.add(m[j][j], sh), g.sub(ch, m[i][j])),
+    let both = match m[i][j] == m[j][i] {
+        true => g.mul(two, m[i][j]),
+        false => g.add(m[i][j], m[j][i]),
     };
-    let out = turned(g, turn, k, m[k]);
-    let mut all = [[Expr::ZERO; 3]; 3];
-    all[k] = out;
-    (all[i][k], all[j][k]) = (out[i], out[j]);
-    (all[i][i], all[j][j]) = (ii, jj);
-    (all[i][j], all[j][i]) = (ij, ij);
-    all
-}
-
-/// `R D Rᵀ` of a turn about axis `k`, as [second moments](turned_second) are turned.
-pub(super) fn turned_matrix(g: &mut Graph, turn: &Turn, k: usize, m: &[Vec3; 3]) -> [Vec3; 3] {
-    let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-    let (s, c) = turn.sin_cos(g);
-    let (difference, both) = (g.sub(m[i][i], m[j][j]), g.add(m[i][j], m[j][i]));
     let (across, along) = (g.mul(s, difference), g.mul(c, both));
     let h = g.add(across, along);
     let (sh, ch) = (g.mul(s, h), g.mul(c, h));
+    // By quarters of a turn the sums are single entries.
     let (ii, jj, ij, ji) = match (s.is_zero(), c.is_zero()) {
         (true, _) => (m[i][i], m[j][j], m[i][j], m[j][i]),
         (_, true) => (m[j][j], m[i][i], -m[j][i], -m[i][j]),

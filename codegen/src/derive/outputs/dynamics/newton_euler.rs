@@ -67,10 +67,20 @@ impl Field {
         let [[_, xy, xz], [yx, _, yz], [zx, zy, _]] = self.u;
         let [d0, d1, d2] = self.differences;
         let s = moments.second;
-        let x =
-            sum(g, &[(s[0][1], zx), (s[1][1], zy), (s[0][2], -yx), (s[1][2], d0), (s[2][2], -yz)]);
-        let y =
-            sum(g, &[(s[0][2], d1), (s[1][2], xy), (s[0][0], -zx), (s[0][1], -zy), (s[2][2], xz)]);
+        let x = g.products([
+            (s[0][1], zx),
+            (s[1][1], zy),
+            (s[0][2], -yx),
+            (s[1][2], d0),
+            (s[2][2], -yz),
+        ]);
+        let y = g.products([
+            (s[0][2], d1),
+            (s[1][2], xy),
+            (s[0][0], -zx),
+            (s[0][1], -zy),
+            (s[2][2], xz),
+        ]);
         // Without a turn about x or y the two are one.
         let about = match xy == -yx {
             true => {
@@ -79,17 +89,10 @@ impl Field {
             }
             false => [(s[0][0], yx), (s[1][1], -xy)],
         };
-        let z = sum(g, &[about[0], about[1], (s[0][1], d2), (s[0][2], yz), (s[1][2], -xz)]);
+        let z = g.products([about[0], about[1], (s[0][1], d2), (s[0][2], yz), (s[1][2], -xz)]);
         let lever = g.cross3(moments.first, p);
         (force, g.add3([x, y, z], lever))
     }
-}
-
-fn sum(g: &mut Graph, products: &[(Expr, Expr)]) -> Expr {
-    products.iter().fold(Expr::ZERO, |sum, (a, b)| {
-        let product = g.mul(*a, *b);
-        g.add(sum, product)
-    })
 }
 
 /// What the motors give so that the links move, rotors and friction apart.

@@ -55,10 +55,7 @@ impl Text {
             Extra::Sides => format!(", const {real} sides[{upper}_JOINTS]"),
             Extra::Warming => format!(", {real} warming"),
         };
-        let given = [
-            extras.iter().map(parameter).collect(),
-            extras.iter().map(|extra| format!(", {}", extra.name())).collect(),
-        ];
+        let given = [extras.iter().map(parameter).collect(), module.ir.readings.handed_on()];
         let exact = find(CLOSED_FORM).is_none();
         Some(Text {
             closed: if exact { crate::robot::INVERSE_KINEMATICS } else { CLOSED_FORM },

@@ -1,6 +1,6 @@
 //! An arm as the textbook has it, which shares no code with the kernels.
 
-use nalgebra::{Isometry3, Matrix3, Vector3};
+use nalgebra::Matrix3;
 use stiffarm::kernels::{Arm, Numeric};
 use stiffarm_kernels::generic::{Arm as Textbook, Joint};
 
@@ -23,23 +23,18 @@ pub fn textbook<const N: usize, A: Arm<N> + Numeric<N>>(_: &A, file: &str) -> Te
             d: row.d,
             a: row.a,
             alpha: row.alpha,
-            beta: 0.0,
             compliance: row.stiffness.map_or(0.0, f64::recip),
             mass: row.mass,
             com: row.com.into(),
             inertia: inertia(k),
-            drive: Default::default(),
-            limits: None,
-            beam: None,
+            ..Joint::default()
         }
     };
     Textbook {
         name: A::NAME.to_owned(),
         convention: A::CONVENTION,
         joints: (0..N).map(joint).collect(),
-        base: Isometry3::identity(),
-        tool: Isometry3::identity(),
-        tool_rotation_vector: Vector3::zeros(),
         gravity: A::GRAVITY.into(),
+        ..Textbook::default()
     }
 }
