@@ -34,6 +34,7 @@ pub mod performance;
 pub mod plant;
 pub mod pool;
 pub mod predicted;
+pub mod program;
 pub mod readings;
 pub mod report;
 pub mod rng;

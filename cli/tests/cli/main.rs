@@ -24,6 +24,7 @@ mod others;
 mod papers;
 mod pinocchio;
 mod poses;
+mod programs;
 mod readme;
 mod report;
 mod sessions;
