@@ -7,7 +7,9 @@ use stiffarm_codegen::derive::Given;
 use stiffarm_gap::compensate::program::{Before, Controlled, Moved, Placed, Unmoved};
 use stiffarm_gap::compensate::reach::Search;
 use stiffarm_gap::measurement::Dimension;
-use stiffarm_gap::program::{Change, DEFAULT, Fault, File, Language, Left, Place, Point, Program, edited};
+use stiffarm_gap::program::{
+    Change, DEFAULT, Fault, File, Language, Left, Place, Point, Program, edited,
+};
 use stiffarm_gap::whole::{Situation, Whole};
 use stiffarm_kernels::generic::Arm;
 
@@ -78,7 +80,10 @@ impl ProgramArgs {
         let of_nominal = Whole { arm: &of_controller, known: &nominal.known };
         if arm.dof() != of_controller.dof() {
             let (has, other) = (of_controller.dof(), arm.dof());
-            let message = format!("--nominal: found {has} joints, expected {other}: those of {}", source.given);
+            let message = format!(
+                "--nominal: found {has} joints, expected {other}: those of {}",
+                source.given
+            );
             return Err(Failure::new(message));
         }
         let joints: Vec<Dimension> = source.readings();
@@ -149,9 +154,12 @@ impl ProgramArgs {
         source.refuse_undecided("compensate --program", real, &known)?;
         match real.undecided(&Situation::under(*load)) {
             Some((effect, unknown)) if !has_home => {
-                let (name, place) = (effect.effect.identifier().replace('_', " "), effect.spot.place);
+                let (name, place) =
+                    (effect.effect.identifier().replace('_', " "), effect.spot.place);
                 Err(Failure::with_help(
-                    format!("the {name} at {place} depends on {unknown}, and nothing is known of where the program begins"),
+                    format!(
+                        "the {name} at {place} depends on {unknown}, and nothing is known of where the program begins"
+                    ),
                     "give the joint values before its first point: --home q1,q2,…",
                 ))
             }
@@ -180,7 +188,10 @@ impl ProgramArgs {
         let language = language.unwrap_or(Language::Table);
         if language != Language::Table && joints != 6 {
             let message = format!("--program: found a robot of {joints} joints, expected 6");
-            return Err(Failure::with_help(message, "other robots' points stand in a table (.csv)"));
+            return Err(Failure::with_help(
+                message,
+                "other robots' points stand in a table (.csv)",
+            ));
         }
         let kept = files.clone();
         Program::read(files, language, joints).map_err(|Fault { file, span, message, help }| {
@@ -194,7 +205,10 @@ impl ProgramArgs {
         let is = |name: &String, point: &Point| name.trim().eq_ignore_ascii_case(&point.name);
         for name in &self.leave {
             if !program.points.iter().any(|point| is(name, point)) {
-                return Err(Failure::new(format!("--leave: the program has no point `{}`", name.trim())));
+                return Err(Failure::new(format!(
+                    "--leave: the program has no point `{}`",
+                    name.trim()
+                )));
             }
         }
         let asked = |point: &Point| self.leave.iter().any(|name| is(name, point));
@@ -202,6 +216,7 @@ impl ProgramArgs {
         let mut left: Vec<Left> = aside.map(|p| p.leave("as --leave asks".to_owned())).collect();
         program.points.retain(|point| !asked(point));
         program.left.append(&mut left);
+        program.left.sort_by_key(|left| (left.file, left.span.start));
         Ok(())
     }
 
@@ -309,7 +324,10 @@ fn given(option: &str, texts: &[String], language: Language) -> Result<Vec<Named
         };
         let (Some((name, _)), Some(pose)) = (parts, pose) else {
             let message = format!("{option}: found `{text}`, expected NAME=POSE");
-            return Err(Failure::with_help(message, format!("a pose is {}", language.pose_format())));
+            return Err(Failure::with_help(
+                message,
+                format!("a pose is {}", language.pose_format()),
+            ));
         };
         Ok(Named { name: name.to_lowercase(), pose, asked: false })
     });
@@ -344,7 +362,11 @@ fn undefined(program: &Program, remarks: &[(&str, &Point, &Place)]) -> Failure {
             name => format!("the {what} {name}, which the program does not define"),
         };
         let message = format!("{} stands in {which}", point.name);
-        let message = if *what == "tool" { message.replace(" stands in ", " is a pose of ") } else { message };
+        let message = if *what == "tool" {
+            message.replace(" stands in ", " is a pose of ")
+        } else {
+            message
+        };
         let help = format!("give it: --{what} {name}=POSE, {}", program.language.pose_format());
         all.push(remark(program, point.file, &point.span, &message, &help));
     }

@@ -14,7 +14,9 @@ fn real(id: &str, more: &str) -> (String, Arm) {
     let mut real = arm(id);
     for (k, offset) in OFFSETS.iter().enumerate().filter(|(_, offset)| **offset != 0.0) {
         let place = format!("place = \"joint {}\"", k + 1);
-        text.push_str(&format!("\n[[effect]]\nid = \"joint_offset\"\n{place}\noffset = {offset}\n"));
+        text.push_str(&format!(
+            "\n[[effect]]\nid = \"joint_offset\"\n{place}\noffset = {offset}\n"
+        ));
         real.joints[k].theta += offset;
     }
     (text + more, real)
@@ -33,7 +35,8 @@ fn numbers(text: &str) -> Vec<f64> {
 /// Columns of the table of moves: the joint values, rad.
 fn joints(csv: &str) -> Vec<Vec<f64>> {
     let rows = csv.lines().skip(1).filter(|row| row.ends_with(",moved"));
-    let row = |row: &str| row.split(',').skip(5).take(6).map(|x| x.parse::<f64>().unwrap()).collect();
+    let row =
+        |row: &str| row.split(',').skip(5).take(6).map(|x| x.parse::<f64>().unwrap()).collect();
     rows.map(row).map(|row: Vec<f64>| row.iter().map(|q| q.to_radians()).collect()).collect()
 }
 
@@ -98,7 +101,8 @@ fn languages() -> [Language; 4] {
                 )
             },
             pose: |n| {
-                let turned = UnitQuaternion::from_quaternion(Quaternion::new(n[3], n[4], n[5], n[6]));
+                let turned =
+                    UnitQuaternion::from_quaternion(Quaternion::new(n[3], n[4], n[5], n[6]));
                 Isometry3::from_parts((Vector3::new(n[0], n[1], n[2]) / 1e3).into(), turned)
             },
             frame: moved(0.1, 0.02, 0.0),
@@ -117,10 +121,13 @@ fn languages() -> [Language; 4] {
                 format!(
                     "P[{}]{{ GP1: UF : 1, UT : 2, CONFIG : 'N U T, {a}, {b}, {c}', X = {} mm, Y = {} mm, \
                      Z = {} mm, W = {w} deg, P = {pitch} deg, R = {r} deg }};\n",
-                    k + 1, p.x, p.y, p.z
+                    k + 1,
+                    p.x,
+                    p.y,
+                    p.z
                 )
             },
-            pose: |n| of_degrees(&n[6..], n[9], n[10], n[11]),
+            pose: |n| of_degrees(&n[7..], n[10], n[11], n[12]),
             frame: moved(0.0, 0.3, 0.0),
             tool: moved(0.0, 0.0, 0.0),
             options: &["--frame", "1=0,300,0,0,0,0", "--tool", "2=robot"],
@@ -135,7 +142,9 @@ fn languages() -> [Language; 4] {
                 let p = [p.x, p.y, p.z, r.x, r.y, r.z].map(|x| x.to_string()).join(", ");
                 format!("  movel(p[{p}], a=1.2, v=0.25) # p[1,2\n")
             },
-            pose: |n| Isometry3::new(Vector3::new(n[0], n[1], n[2]), Vector3::new(n[3], n[4], n[5])),
+            pose: |n| {
+                Isometry3::new(Vector3::new(n[0], n[1], n[2]), Vector3::new(n[3], n[4], n[5]))
+            },
             frame: Isometry3::identity(),
             tool: moved(0.0, 0.0, 0.1),
             options: &[],
@@ -173,8 +182,20 @@ fn the_arm_as_it_is_stands_where_the_program_meant() {
         let (out, moves) = (folder.name("out"), folder.name("moves.csv"));
         let home = all[0].map(|q| q.to_string()).join(",");
         let arguments = [
-            "compensate", &robot, "--nominal", of.robot, "--program", &path, "--home", &home,
-            "--out", &out, "--moves", &moves, "--tolerance", "0.01um",
+            "compensate",
+            &robot,
+            "--nominal",
+            of.robot,
+            "--program",
+            &path,
+            "--home",
+            &home,
+            "--out",
+            &out,
+            "--moves",
+            &moves,
+            "--tolerance",
+            "0.01um",
         ];
         let run = stiffarm(&[&arguments[..], of.options].concat());
         assert_eq!((run.status, run.err.as_str()), (0, ""), "{}: {}", of.file, run.out);
@@ -189,7 +210,9 @@ fn the_arm_as_it_is_stands_where_the_program_meant() {
         let text: String = written.iter().map(|b| *b as char).collect();
         let heads = of.head.lines().count();
         for ((line, q), meant) in text.lines().skip(heads).zip(&found).zip(&all) {
-            let off = |a: &Isometry3<f64>, b: &Isometry3<f64>| (a.to_homogeneous() - b.to_homogeneous()).amax();
+            let off = |a: &Isometry3<f64>, b: &Isometry3<f64>| {
+                (a.to_homogeneous() - b.to_homogeneous()).amax()
+            };
             let stands = frame.inverse() * flange(&real, q) * tool;
             assert!(off(&stands, &says(meant)) < 1e-6, "{}: {line}", of.file);
             let told = (of.pose)(&numbers(line));
@@ -210,8 +233,14 @@ fn joint_values_are_corrected_in_a_table() {
     let arguments = ["compensate", &robot, "--nominal", "ur10", "--program", &path, "--out", "-"];
     let run = stiffarm(&[&arguments[..], &["--quiet"]].concat());
     assert_eq!(run.status, 0, "{}", run.err);
-    assert!(run.out.starts_with("# by hand\nname,q1[deg],q2[deg]") && run.out.contains("\n\"a, b\",10,-80.045"), "{}", run.out);
-    let q: Vec<f64> = numbers(run.out.lines().nth(2).unwrap()).iter().map(|x| x.to_radians()).collect();
+    assert!(
+        run.out.starts_with("# by hand\nname,q1[deg],q2[deg]")
+            && run.out.contains("\n\"a, b\",10,-80.045"),
+        "{}",
+        run.out
+    );
+    let q: Vec<f64> =
+        numbers(run.out.lines().nth(2).unwrap()).iter().map(|x| x.to_radians()).collect();
     let meant = [10.0_f64, -80.0, 90.0, -20.0, 60.0, 5.0].map(f64::to_radians);
     let off = real.pose(&q).to_homogeneous() - arm("ur10").pose(&meant).to_homogeneous();
     assert!(off.amax() < 2e-6, "{off}");
@@ -223,12 +252,15 @@ fn backlash_is_compensated_by_the_order_of_the_points() {
     let folder = Folder::new();
     let slack = "\n[[effect]]\nid = \"backlash\"\nplace = \"joint 1\"\nwidth = \"1 mrad\"\n";
     let robot = folder.file("real.toml", read("robots/arms/ur10.toml") + slack);
-    let rows = "q1[deg],q2[deg],q3[deg],q4[deg],q5[deg],q6[deg]\n10,-80,90,-20,60,5\n5,-80,90,-20,60,5\n";
+    let rows =
+        "q1[deg],q2[deg],q3[deg],q4[deg],q5[deg],q6[deg]\n10,-80,90,-20,60,5\n5,-80,90,-20,60,5\n";
     let path = folder.file("joints.csv", rows);
-    let arguments = ["compensate", &robot, "--nominal", "ur10", "--program", &path, "--out", "-", "--quiet"];
+    let arguments =
+        ["compensate", &robot, "--nominal", "ur10", "--program", &path, "--out", "-", "--quiet"];
     let err = stiffarm(&arguments).refused();
     assert!(err.contains("the backlash at joint 1 depends on") && err.contains("--home"), "{err}");
-    let out = stiffarm(&[&arguments[..], &["--home", "0,-80deg,90deg,-20deg,60deg,5deg"]].concat()).good();
+    let out = stiffarm(&[&arguments[..], &["--home", "0,-80deg,90deg,-20deg,60deg,5deg"]].concat())
+        .good();
     let first: Vec<f64> = out.lines().skip(1).map(|line| numbers(line)[0]).collect();
     let half = 0.5e-3_f64.to_degrees();
     // Coming from below the joint rests behind its reading.

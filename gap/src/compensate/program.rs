@@ -81,7 +81,9 @@ pub enum Unmoved {
     #[error("no branch of the nominal arm has the configuration that it says")]
     NoSuchConfiguration,
     /// Several branches, and nothing to choose by.
-    #[error("{0} branches of the nominal arm reach it, and nothing is said of the joint values before it")]
+    #[error(
+        "{0} branches of the nominal arm reach it, and nothing is said of the joint values before it"
+    )]
     Undetermined(usize),
     /// The arm as it is does not reach it near there.
     #[error("the arm as it is does not reach it: {0}")]
@@ -135,7 +137,9 @@ impl Controlled<'_> {
         let far = found.q.iter().zip(&nominal).any(|(a, b)| (a - b).abs() > LARGEST_CORRECTION);
         match &found.ended {
             Ended::Reached if !far => {}
-            Ended::Reached => return Err(Unmoved::Missed("not with this configuration".to_owned())),
+            Ended::Reached => {
+                return Err(Unmoved::Missed("not with this configuration".to_owned()));
+            }
             Ended::Nearest(joints) if joints.is_empty() => {
                 return Err(Unmoved::Missed("it is out of its reach".to_owned()));
             }

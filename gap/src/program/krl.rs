@@ -160,8 +160,11 @@ impl Reader<'_> {
             "$tool" => self.tool = self.place(at)?,
             "base_data" | "tool_data" => {
                 let place = self.place(at)?;
-                let into =
-                    if name == "base_data" { &mut self.found.frames } else { &mut self.found.tools };
+                let into = if name == "base_data" {
+                    &mut self.found.frames
+                } else {
+                    &mut self.found.tools
+                };
                 into.insert(index.to_owned(), place);
             }
             // What the controller itself defines is no program's point.
@@ -169,7 +172,8 @@ impl Reader<'_> {
             _ if at.is_mark(b'{') => {
                 let aggregate = self.aggregate(&mut at.clone())?;
                 let kind = self.types.get(&name).map(String::as_str);
-                let full = if index.is_empty() { shown.to_owned() } else { format!("{shown}[{index}]") };
+                let full =
+                    if index.is_empty() { shown.to_owned() } else { format!("{shown}[{index}]") };
                 match kind {
                     Some("fdat") => self.fdat(&name, &aggregate),
                     Some("frame") => {
@@ -213,7 +217,8 @@ impl Reader<'_> {
             Some(Value::Number(cell)) => Place::Named(format!("{}", cell.value)),
             _ => Place::unsaid(),
         };
-        let stands = matches!(aggregate.parts.get("ipo_frame"), Some(Value::Other(word)) if word == "#tcp");
+        let stands =
+            matches!(aggregate.parts.get("ipo_frame"), Some(Value::Other(word)) if word == "#tcp");
         let frames = (number("base_no"), number("tool_no"), stands);
         self.fdat.insert(name.to_owned(), frames);
     }
@@ -341,7 +346,12 @@ impl Reader<'_> {
             let unit = if matches!(name.as_str(), "x" | "y" | "z") { MILLIMETRE } else { DEGREE };
             let mut value = at.until(b",}");
             if value.is_at_end() {
-                return Err(fault(self.file, at, &format!("a value of {}", name.to_uppercase()), help));
+                return Err(fault(
+                    self.file,
+                    at,
+                    &format!("a value of {}", name.to_uppercase()),
+                    help,
+                ));
             }
             let whole = value.rest().to_lowercase();
             let number = value.number(unit).filter(|_| value.is_at_end());

@@ -21,9 +21,9 @@ use nalgebra::Isometry3;
 
 use crate::io::Convention;
 pub use edit::{Cell, Change, edited};
-pub use point::{Configuration, DEFAULT, Left, Place, Point, Values};
 use lexer::{Kind, Style};
 use point::Uses;
+pub use point::{Configuration, DEFAULT, Left, Place, Point, Values};
 
 /// Languages of programs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

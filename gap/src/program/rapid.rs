@@ -16,8 +16,7 @@ use super::{DEGREE, Fault, File, Found, Language, MILLIMETRE, fault, notation};
 use crate::io::Convention;
 
 /// What the names of instructions begin with that go to points, and whose last argument is the tool.
-const MOTIONS: [&str; 8] =
-    ["move", "triggl", "triggj", "triggc", "search", "arc", "spot", "disp"];
+const MOTIONS: [&str; 8] = ["move", "triggl", "triggj", "triggc", "search", "arc", "spot", "disp"];
 
 /// `[…]`, by its elements.
 struct List<'t> {
@@ -65,7 +64,8 @@ impl Reader<'_> {
             let Some(word) = at.word() else { continue };
             if MOTIONS.iter().any(|motion| word.starts_with(motion)) {
                 self.motion(&shown, at.until(b";"))?;
-            } else if matches!(word.as_str(), "robtarget" | "jointtarget" | "tooldata" | "wobjdata") {
+            } else if matches!(word.as_str(), "robtarget" | "jointtarget" | "tooldata" | "wobjdata")
+            {
                 if let Some(name) = at.peek().filter(|token| token.kind == Kind::Word) {
                     let name = at.shown(name.span.clone()).to_lowercase();
                     self.types.insert(name, word);

@@ -25,7 +25,8 @@ pub(super) fn read(files: &[File], joints: usize, found: &mut Found) -> Result<(
                 continue;
             };
             let read = |columns: &Columns| -> Result<Vec<Cell>, Fault> {
-                let cell = |(k, unit): &(usize, f64)| number(file, text, &line, cells.get(*k), *unit);
+                let cell =
+                    |(k, unit): &(usize, f64)| number(file, text, &line, cells.get(*k), *unit);
                 columns.iter().map(cell).collect()
             };
             let (pose, readings) = (read(pose)?, read(readings)?);
@@ -113,7 +114,8 @@ fn columns(
     if has_pose && has_joints && !(pose.is_empty() && readings.is_empty()) {
         return Ok((pose, readings));
     }
-    let message = format!("found no columns of points, expected x, y, z, rx, ry, rz or q1 … q{joints}");
+    let message =
+        format!("found no columns of points, expected x, y, z, rx, ry, rz or q1 … q{joints}");
     let help = "a column bears its unit: x[mm], rx[deg], q1[deg]".to_owned();
     Err(Fault { file, span: line, message, help })
 }

@@ -186,5 +186,8 @@ fn mistakes_have_a_place() {
     assert_eq!(Language::of("a.txt"), None);
     let pose = Language::Krl.pose("{X 1000, Y 0, Z 0, A 90, B 0, C 0}").expect("a pose");
     assert!((pose.translation.vector.x - 1.0).abs() < 1e-12 && pose.rotation.angle() > 1.5);
-    assert!(Language::Fanuc.pose("1,2,3").is_none() && Language::Rapid.pose("[1,2,3],[0,0,0,0]").is_none());
+    assert!(
+        Language::Fanuc.pose("1,2,3").is_none()
+            && Language::Rapid.pose("[1,2,3],[0,0,0,0]").is_none()
+    );
 }

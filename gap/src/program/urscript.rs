@@ -128,7 +128,8 @@ impl Reader<'_> {
     /// A target: a literal, a variable, or one of them in a call.
     fn target(&mut self, motion: &str, mut at: Cursor<'_>, frame: &Place, near: Option<Vec<f64>>) {
         let mut named = at.clone();
-        let is_key = |word: Option<String>| matches!(word.as_deref(), Some("q" | "pose" | "pose_to"));
+        let is_key =
+            |word: Option<String>| matches!(word.as_deref(), Some("q" | "pose" | "pose_to"));
         if is_key(named.word()) && named.mark(b'=') {
             at = named;
         }
