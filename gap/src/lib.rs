@@ -12,6 +12,7 @@
 //! This crate returns data and structured errors; it prints nothing.
 
 pub mod compensate;
+pub mod controller;
 pub mod corrected;
 pub mod dexterity;
 pub mod diagnose;

@@ -51,6 +51,9 @@ pub struct ProgramArgs {
     moves: Option<Target>,
 }
 
+/// A frame in the robot's base, and a tool on the flange or the robot files' own.
+type FrameAndTool = (Isometry3<f64>, Option<Isometry3<f64>>);
+
 /// A name and what was given for it; whether a point has asked for it.
 struct Named {
     name: String,
@@ -221,11 +224,7 @@ impl ProgramArgs {
     }
 
     /// Frame and tool of each point.
-    fn places(
-        &self,
-        program: &Program,
-        host: &Host,
-    ) -> Result<Vec<(Isometry3<f64>, Option<Isometry3<f64>>)>, Failure> {
+    fn places(&self, program: &Program, host: &Host) -> Result<Vec<FrameAndTool>, Failure> {
         let mut frames = given("--frame", &self.frame, program.language)?;
         let mut tools = given("--tool", &self.tool, program.language)?;
         let (mut places, mut remarks, mut own) = (Vec::new(), Vec::new(), false);
@@ -237,8 +236,8 @@ impl ProgramArgs {
             let tool = tool.or(default.then_some(None));
             let is_pose = point.is_pose();
             if is_pose {
-                remarks.extend(frame.is_none().then(|| ("frame", point, &point.frame)));
-                remarks.extend(tool.is_none().then(|| ("tool", point, &point.tool)));
+                remarks.extend(frame.is_none().then_some(("frame", point, &point.frame)));
+                remarks.extend(tool.is_none().then_some(("tool", point, &point.tool)));
             }
             places.push((frame.flatten().unwrap_or_default(), tool.flatten()));
         }

@@ -5,6 +5,7 @@ mod beyond;
 mod check;
 mod committed;
 mod compensate;
+mod controllers;
 mod corrected;
 mod diagnose;
 mod effects;

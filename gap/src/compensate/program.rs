@@ -82,7 +82,7 @@ pub enum Unmoved {
     NoSuchConfiguration,
     /// Several branches, and nothing to choose by.
     #[error(
-        "{0} branches of the nominal arm reach it, and nothing is said of the joint values before it"
+        "{0} sets of joint values of the nominal arm reach it, and nothing is said of those before it"
     )]
     Undetermined(usize),
     /// The arm as it is does not reach it near there.

@@ -101,7 +101,7 @@ fn token_end(text: &[u8], at: usize, style: &Style) -> usize {
         return while_is(at + 1, &is_word);
     }
     let next_is_digit = |at: usize| text.get(at).is_some_and(u8::is_ascii_digit);
-    if !byte.is_ascii_digit() && !(byte == b'.' && next_is_digit(at + 1)) {
+    if !(byte.is_ascii_digit() || byte == b'.' && next_is_digit(at + 1)) {
         return at + 1;
     }
     let mut end = digits(at);

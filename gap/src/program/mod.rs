@@ -5,6 +5,7 @@
 
 mod cursor;
 mod edit;
+mod entries;
 mod fanuc;
 mod krl;
 mod lexer;
@@ -21,6 +22,7 @@ use nalgebra::Isometry3;
 
 use crate::io::Convention;
 pub use edit::{Cell, Change, edited};
+pub use entries::{Entry, entries};
 use lexer::{Kind, Style};
 use point::Uses;
 pub use point::{Configuration, DEFAULT, Left, Place, Point, Values};

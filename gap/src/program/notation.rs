@@ -106,7 +106,7 @@ mod tests {
                 same(convention, &n, 2e-7);
             }
         }
-        for vector in [[0.0, 3.14, 0.1], [2.0, -2.6, 0.0], [0.0, 4.0, 0.0], [0.0; 3]] {
+        for vector in [[0.0, 3.1, 0.1], [2.0, -2.6, 0.0], [0.0, 4.0, 0.0], [0.0; 3]] {
             let n = [0.1, 0.2, 0.3, vector[0], vector[1], vector[2]];
             same(Convention::RotationVector, &n, 1e-12);
         }
