@@ -18,11 +18,14 @@ use crate::program::{Change, edited};
 /// Links in the kinematics file, base to tip.
 const LINKS: [&str; 6] = ["shoulder", "upper_arm", "forearm", "wrist_1", "wrist_2", "wrist_3"];
 
+/// An entry of a row.
+type Entry = fn(&Joint) -> f64;
+
 /// Of products of rotations, m and rad.
 const ROUNDING: f64 = 1e-15;
 
 /// What differs of a row, by its name in `calibration.conf`.
-const DELTAS: [(&str, fn(&Joint) -> f64); 4] = [
+const DELTAS: [(&str, Entry); 4] = [
     ("delta_theta", |joint| joint.theta),
     ("delta_a", |joint| joint.a),
     ("delta_d", |joint| joint.d),
@@ -41,7 +44,7 @@ pub fn calibration(
 ) -> Result<Vec<u8>, ControllerError> {
     [nominal, real].into_iter().try_for_each(fits)?;
     let real = &without_beta(real);
-    let list = |entry: fn(&Joint) -> f64| {
+    let list = |entry: Entry| {
         let pairs = real.joints.iter().zip(&nominal.joints);
         let each = pairs.map(|(is, was)| format!("{:?}", entry(is) - entry(was)));
         format!("[ {}]", each.collect::<Vec<_>>().join(", "))
