@@ -133,6 +133,12 @@ impl Arm {
         &self.text
     }
 
+    /// The labels of the table's rows, base to tip.
+    #[getter]
+    fn joint_names(&self) -> Vec<&str> {
+        self.source.robot.joints.iter().map(|joint| joint.name.as_str()).collect()
+    }
+
     /// `revolute` or `prismatic`, base to tip.
     #[getter]
     fn joint_types(&self) -> Vec<&'static str> {

@@ -1,6 +1,7 @@
 //! The certificate of a campaign: what the page says, as far as one sheet of paper has room.
 
 use super::{Campaign, Fitted, method};
+use crate::document::words::less;
 use crate::document::{Block, Document};
 
 /// What a certificate says of how it was made.
@@ -25,7 +26,13 @@ impl Campaign<'_> {
         facts.sort_by_key(|(name, _)| FACTS.iter().position(|fact| fact == name));
         let first = std::iter::once(Block::Sentence(self.sentence()));
         let verdicts = self.mistakes().into_iter().chain(self.acceptance());
-        let sizes = Block::section(error.heading, vec![Block::Table(error.table)]);
+        let shrink = format!(
+            "With the findings the held-out {} is {}; the interval of 95 % is by resampling poses.",
+            self.error(),
+            less(&self.found.gap.shrink)
+        );
+        let sizes = vec![Block::Table(error.table), Block::Paragraph(shrink)];
+        let sizes = Block::section(error.heading, sizes);
         let rest = [
             Block::section("Pose accuracy and repeatability", self.performance(fitted)),
             Block::section("Made from", vec![Block::Facts(facts)]),

@@ -213,3 +213,35 @@ fn findings(sheet: &mut Sheet, large: &[Finding], summary: &str, small: &[Findin
         sheet.paragraph(&capital(summary), 2.0);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Sixty findings with a dozen parameters each.
+    #[test]
+    fn whatever_is_found_fits_on_the_sheet() {
+        let finding = |number: usize| Finding {
+            number,
+            name: format!("transmission error at joint {number}"),
+            said: String::new(),
+            error: "1.046 → 0.217 mm".to_owned(),
+            parts: [1.0, 0.2],
+            less: "79 % less [73 to 84]".to_owned(),
+            parameters: (0..12).map(|k| format!("cos {k} 0.803 mrad [0.798 to 0.808]")).collect(),
+            evidence: String::new(),
+            same: vec!["joint compliance at joint 2 (leaves 0.94 mil)".to_owned(); 20],
+            next: None,
+            advice: None,
+        };
+        let large: Vec<Finding> = (1..=60).map(finding).collect();
+        let findings = Block::Findings { large, summary: String::new(), small: Vec::new() };
+        let blocks = vec![Block::Sentence("A sentence. ".repeat(20)), findings];
+        let robot = "An arm (with a bracket".to_owned();
+        let document = Document { robot, about: "certificate", facts: "f".repeat(2000), blocks };
+        let fits = |(detailed, size): &(usize, f32)| document.sheet(*detailed, *size).fits();
+        assert!(!fits(&ATTEMPTS[0]) && ATTEMPTS.iter().any(fits));
+        let bytes = document.pdf();
+        assert!(bytes.starts_with(b"%PDF-1.") && bytes == document.pdf());
+    }
+}
