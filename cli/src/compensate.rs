@@ -1,5 +1,6 @@
 //! `stiffarm compensate`: set-points at which the loaded arm stands where it should, and programs with such points.
 
+mod places;
 mod program;
 mod report;
 

@@ -7,13 +7,12 @@ use stiffarm_codegen::derive::Given;
 use stiffarm_gap::compensate::program::{Before, Controlled, Moved, Placed, Unmoved};
 use stiffarm_gap::compensate::reach::Search;
 use stiffarm_gap::measurement::Dimension;
-use stiffarm_gap::program::{
-    Change, DEFAULT, Fault, File, Language, Left, Place, Point, Program, edited,
-};
+use stiffarm_gap::program::{Change, Fault, File, Language, Left, Point, Program, edited};
 use stiffarm_gap::whole::{Situation, Whole};
 use stiffarm_kernels::generic::Arm;
 
 use super::Verdict;
+use super::places::places;
 use super::report::{Outcome, moves, screen};
 use crate::host::Host;
 use crate::input::branches::{Branches, WITHIN};
@@ -49,17 +48,6 @@ pub struct ProgramArgs {
     /// Write what became of each point
     #[arg(long, value_name = "CSV", requires = "program")]
     moves: Option<Target>,
-}
-
-/// A frame in the robot's base, and a tool on the flange or the robot files' own.
-type FrameAndTool = (Isometry3<f64>, Option<Isometry3<f64>>);
-
-/// A name and what was given for it; whether a point has asked for it.
-struct Named {
-    name: String,
-    /// `None` for the robot files' own.
-    pose: Option<Isometry3<f64>>,
-    asked: bool,
 }
 
 impl ProgramArgs {
@@ -98,7 +86,7 @@ impl ProgramArgs {
         nominal.refuse_undecided("compensate --nominal", &of_nominal, &Situation::under(load))?;
         let mut program = self.read(arm.dof(), host)?;
         self.set_aside(&mut program)?;
-        let places = self.places(&program, host)?;
+        let places = places(&program, (&self.frame, &self.tool), host)?;
         let inverse = Branches::of(&nominal).filter(|arm| arm.form.given.is_none());
         let branches = |pose: &Isometry3<f64>| -> Vec<Vec<f64>> {
             let Some(arm) = &inverse else { return Vec::new() };
@@ -223,40 +211,6 @@ impl ProgramArgs {
         Ok(())
     }
 
-    /// Frame and tool of each point.
-    fn places(&self, program: &Program, host: &Host) -> Result<Vec<FrameAndTool>, Failure> {
-        let mut frames = given("--frame", &self.frame, program.language)?;
-        let mut tools = given("--tool", &self.tool, program.language)?;
-        let (mut places, mut remarks, mut own) = (Vec::new(), Vec::new(), false);
-        for point in &program.points {
-            let frame = placed(&point.frame, &mut frames);
-            let tool = placed(&point.tool, &mut tools);
-            let default = matches!(&point.tool, Place::Named(name) if name == DEFAULT);
-            own |= tool.is_none() && default;
-            let tool = tool.or(default.then_some(None));
-            let is_pose = point.is_pose();
-            if is_pose {
-                remarks.extend(frame.is_none().then_some(("frame", point, &point.frame)));
-                remarks.extend(tool.is_none().then_some(("tool", point, &point.tool)));
-            }
-            places.push((frame.flatten().unwrap_or_default(), tool.flatten()));
-        }
-        if !remarks.is_empty() {
-            return Err(undefined(program, &remarks));
-        }
-        for (option, all) in [("--frame", &frames), ("--tool", &tools)] {
-            if let Some(unused) = all.iter().find(|named| !named.asked) {
-                let name = &unused.name;
-                let message = format!("{option} {name}: no point of the program asks for it");
-                return Err(Failure::with_help(message, "leave it out, or check its name"));
-            }
-        }
-        if own {
-            host.note("where the program names no tool, its tool is the [tool] of the robot files");
-        }
-        Ok(places)
-    }
-
     fn write(
         &self,
         program: &Program,
@@ -312,66 +266,6 @@ fn rigid(arm: &Arm) -> Arm {
     rigid
 }
 
-/// NAME=POSE of each option.
-fn given(option: &str, texts: &[String], language: Language) -> Result<Vec<Named>, Failure> {
-    let each = texts.iter().map(|text| {
-        let parts = text.split_once('=').map(|(name, pose)| (name.trim(), pose.trim()));
-        let pose = match parts {
-            Some((_, "robot")) if option == "--tool" => Some(None),
-            Some((_, pose)) => language.pose(pose).map(Some),
-            None => None,
-        };
-        let (Some((name, _)), Some(pose)) = (parts, pose) else {
-            let message = format!("{option}: found `{text}`, expected NAME=POSE");
-            return Err(Failure::with_help(
-                message,
-                format!("a pose is {}", language.pose_format()),
-            ));
-        };
-        Ok(Named { name: name.to_lowercase(), pose, asked: false })
-    });
-    each.collect()
-}
-
-/// Where that is: as the option says, else as the program; `None` if neither does.
-fn placed(place: &Place, given: &mut [Named]) -> Option<Option<Isometry3<f64>>> {
-    match place {
-        Place::Is(pose) => Some(Some(*pose)),
-        Place::Named(name) => {
-            let name = name.to_lowercase();
-            let named = given.iter_mut().find(|named| named.name == name)?;
-            named.asked = true;
-            Some(named.pose)
-        }
-    }
-}
-
-/// The frames and tools that nothing defines, each at the first point that asks for it.
-fn undefined(program: &Program, remarks: &[(&str, &Point, &Place)]) -> Failure {
-    let mut told: Vec<(&str, &Place)> = Vec::new();
-    let mut all = Vec::new();
-    for (what, point, place) in remarks {
-        let Place::Named(name) = place else { continue };
-        if told.contains(&(what, place)) {
-            continue;
-        }
-        told.push((what, place));
-        let which = match name.as_str() {
-            DEFAULT => format!("a {what} that the program does not say"),
-            name => format!("the {what} {name}, which the program does not define"),
-        };
-        let message = format!("{} stands in {which}", point.name);
-        let message = if *what == "tool" {
-            message.replace(" stands in ", " is a pose of ")
-        } else {
-            message
-        };
-        let help = format!("give it: --{what} {name}=POSE, {}", program.language.pose_format());
-        all.push(remark(program, point.file, &point.span, &message, &help));
-    }
-    Failure::File(all)
-}
-
 fn mistake(
     program: &Program,
     file: usize,
@@ -383,7 +277,7 @@ fn mistake(
 }
 
 /// At its place in a text; of a file that is no UTF-8 line and column are told in words.
-fn remark(
+pub(super) fn remark(
     program: &Program,
     file: usize,
     span: &std::ops::Range<usize>,

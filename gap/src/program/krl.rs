@@ -5,15 +5,16 @@
 //! `FP1` is in the files has its base and tool by their numbers; another has those that are in force where the program,
 //! read from top to bottom, goes to it first: `$BASE = …`, `$TOOL = …`, `BAS(#BASE, 2)`, `BAS(#TOOL, 3)`.
 
+mod aggregate;
+
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 
 use super::cursor::Cursor;
-use super::edit::Cell;
 use super::lexer::{self, Kind};
-use super::point::{Configuration, Left, Place, Point, Values};
-use super::{DEGREE, Fault, File, Found, Language, MILLIMETRE, fault, notation};
-use crate::io::Convention;
+use super::point::{Left, Place, Point};
+use super::{Fault, File, Found, Language};
+use aggregate::{Aggregate, Value};
 
 /// Instructions that go to points.
 const MOTIONS: [&str; 7] = ["ptp", "lin", "circ", "sptp", "slin", "scirc", "spl"];
@@ -21,23 +22,7 @@ const MOTIONS: [&str; 7] = ["ptp", "lin", "circ", "sptp", "slin", "scirc", "spl"
 /// Types whose values are points wherever they are used.
 const POINTS: [&str; 4] = ["e6pos", "pos", "e6axis", "axis"];
 
-const POSE: [&str; 6] = ["x", "y", "z", "a", "b", "c"];
-const AXES: [&str; 6] = ["a1", "a2", "a3", "a4", "a5", "a6"];
-
 const IN_EXPRESSION: &str = "it stands in an expression";
-
-/// A component's value.
-enum Value {
-    Number(Cell),
-    /// An enumeration's word, or anything else, as it stands.
-    Other(String),
-}
-
-/// `{X 1,Y 2}`.
-struct Aggregate {
-    parts: HashMap<String, Value>,
-    span: Range<usize>,
-}
 
 struct Reader<'f> {
     found: &'f mut Found,
@@ -97,7 +82,8 @@ impl Reader<'_> {
                 "bas" => return self.initial(at),
                 motion if MOTIONS.contains(&motion) => return self.motion(&word, at),
                 relative if relative.ends_with("_rel") => {
-                    return self.leave_all(&word, at, "its motion is relative to the point before");
+                    let shown = word.to_uppercase();
+                    return self.leave_all(&shown, at, "its motion is relative to the point before");
                 }
                 _ if kind.is_none() && at.peek().is_some_and(|token| token.kind == Kind::Word) => {
                     kind = Some(word);
@@ -170,14 +156,14 @@ impl Reader<'_> {
             // What the controller itself defines is no program's point.
             system if system.starts_with('$') => {}
             _ if at.is_mark(b'{') => {
-                let aggregate = self.aggregate(&mut at.clone())?;
+                let aggregate = Aggregate::read(self.file, &mut at.clone())?;
                 let kind = self.types.get(&name).map(String::as_str);
                 let full =
                     if index.is_empty() { shown.to_owned() } else { format!("{shown}[{index}]") };
                 match kind {
                     Some("fdat") => self.fdat(&name, &aggregate),
                     Some("frame") => {
-                        let point = self.point(&full, &aggregate);
+                        let point = aggregate.point(&full, self.file);
                         self.frames.extend(point.ok());
                     }
                     Some(kind) if !POINTS.contains(&kind) => {}
@@ -193,13 +179,10 @@ impl Reader<'_> {
     fn place(&self, mut at: Cursor<'_>) -> Result<Place, Fault> {
         let whole = at.rest();
         if at.is_mark(b'{') {
-            let aggregate = self.aggregate(&mut at)?;
-            let cells = aggregate.numbers(&POSE);
-            let pose = cells.and_then(|cells| {
-                notation::pose(Convention::ABC, &cells.iter().map(Cell::si).collect::<Vec<_>>())
-            });
+            let aggregate = Aggregate::read(self.file, &mut at)?;
+            let pose = aggregate.place();
             let at_end = at.is_at_end();
-            return Ok(pose.filter(|_| at_end).map_or(Place::Named(whole), Place::Is));
+            return Ok(pose.filter(|_| at_end).unwrap_or(Place::Named(whole)));
         }
         Ok(match at.word().as_deref() {
             Some("$nullframe") if at.is_at_end() => Place::none(),
@@ -230,7 +213,7 @@ impl Reader<'_> {
             let target = at.until(b",");
             let mut inside = target.clone();
             if inside.is_mark(b'{') {
-                let aggregate = self.aggregate(&mut inside)?;
+                let aggregate = Aggregate::read(self.file, &mut inside)?;
                 if inside.is_mark(b':') {
                     self.leave(&shown, aggregate.span, IN_EXPRESSION);
                     self.expression(&shown, inside)?;
@@ -271,7 +254,7 @@ impl Reader<'_> {
     }
 
     fn add(&mut self, name: &str, aggregate: &Aggregate, rank: Option<usize>) {
-        match self.point(name, aggregate) {
+        match aggregate.point(name, self.file) {
             Ok(mut point) => {
                 if rank.is_some() {
                     (point.frame, point.tool) = (self.base.clone(), self.tool.clone());
@@ -281,28 +264,6 @@ impl Reader<'_> {
             }
             Err(because) => self.leave(name, aggregate.span.clone(), because),
         }
-    }
-
-    fn point(&self, name: &str, aggregate: &Aggregate) -> Result<Point, &'static str> {
-        if let Some(axes) = aggregate.numbers(&AXES) {
-            return Ok(Point::new(name, self.file, Values::Joints(axes)));
-        }
-        let has = |names: &[&str]| names.iter().any(|name| aggregate.parts.contains_key(*name));
-        let Some(cells) = aggregate.numbers(&POSE) else {
-            return Err(match has(&AXES) || !has(&POSE) {
-                true => "it does not give each of A1 … A6 as a number",
-                false => "it does not give each of X, Y, Z, A, B, C as a number",
-            });
-        };
-        let mut point = Point::new(name, self.file, Values::Pose(cells));
-        match aggregate.parts.get("t") {
-            None => {}
-            Some(Value::Number(turn)) if (0.0..64.0).contains(&turn.value) => {
-                point.configuration = Configuration::Signs(turn.clone());
-            }
-            Some(_) => return Err("its T is no whole number below 64"),
-        }
-        Ok(point)
     }
 
     fn leave(&mut self, name: &str, span: Range<usize>, because: &str) {
@@ -317,50 +278,12 @@ impl Reader<'_> {
                 at.next();
                 continue;
             }
-            let aggregate = self.aggregate(&mut at)?;
-            if self.point(name, &aggregate).is_ok() {
+            let aggregate = Aggregate::read(self.file, &mut at)?;
+            if aggregate.point(name, self.file).is_ok() {
                 self.leave(name, aggregate.span, because);
             }
         }
         Ok(())
-    }
-
-    /// `{TYPE: name value, …}`.
-    fn aggregate(&self, at: &mut Cursor<'_>) -> Result<Aggregate, Fault> {
-        let start = at.span().start;
-        at.mark(b'{');
-        let mut typed = at.clone();
-        if typed.word().is_some() && typed.mark(b':') {
-            *at = typed;
-        }
-        let mut parts = HashMap::new();
-        while !at.is_mark(b'}') {
-            let help = "an aggregate is {X 1.0,Y 2.0}: names, each with its value";
-            let Some(name) = at.word() else {
-                return Err(fault(self.file, at, "the name of a component", help));
-            };
-            if at.mark(b'[') {
-                at.until(b"]");
-                at.mark(b']');
-            }
-            let unit = if matches!(name.as_str(), "x" | "y" | "z") { MILLIMETRE } else { DEGREE };
-            let mut value = at.until(b",}");
-            if value.is_at_end() {
-                return Err(fault(
-                    self.file,
-                    at,
-                    &format!("a value of {}", name.to_uppercase()),
-                    help,
-                ));
-            }
-            let whole = value.rest().to_lowercase();
-            let number = value.number(unit).filter(|_| value.is_at_end());
-            parts.insert(name, number.map_or(Value::Other(whole), Value::Number));
-            at.mark(b',');
-        }
-        let end = at.span().end;
-        at.mark(b'}');
-        Ok(Aggregate { parts, span: start..end })
     }
 
     /// What only the whole program says: FRAMEs that are points, and the FDAT of each point.
@@ -393,16 +316,5 @@ impl Reader<'_> {
         for known in [&mut self.found.frames, &mut self.found.tools] {
             known.entry("0".to_owned()).or_insert_with(Place::none);
         }
-    }
-}
-
-impl Aggregate {
-    /// The components of these names, if all are numbers.
-    fn numbers(&self, names: &[&str]) -> Option<Vec<Cell>> {
-        let number = |name: &&str| match self.parts.get(*name) {
-            Some(Value::Number(cell)) => Some(cell.clone()),
-            _ => None,
-        };
-        names.iter().map(number).collect()
     }
 }
