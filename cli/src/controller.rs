@@ -89,21 +89,21 @@ pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
         };
         Failure::new(format!("{name}: {error}"))
     };
+    let lost = args.lost(nominal.as_ref(), &real, &source);
     let text = match (args.format, &nominal, &own) {
         (Format::UrCalibration, Some(nominal), own) => {
             let own = own.as_ref().map(|(_, bytes)| bytes.as_slice());
             calibration(own, nominal, &real).map_err(told)?
         }
         (Format::KukaMastering, Some(nominal), Some((_, own))) => {
-            mastering(own, nominal, &real).map_err(told)?
+            mastering(own, nominal, &real, lost.as_deref()).map_err(told)?
         }
         (Format::UrKinematics, ..) => {
             kinematics(&real, args.hash.as_deref().unwrap_or("calib_unknown")).map_err(told)?.into()
         }
         _ => joint_limits(&real, &names(&source)).map_err(told)?.into(),
     };
-    let lost = args.lost(nominal.as_ref(), &real, &source);
-    // YAML has comments.
+    // YAML has comments, too.
     let head = match (&lost, args.format) {
         (Some(lost), Format::UrKinematics) => format!("# {lost}\n"),
         _ => String::new(),

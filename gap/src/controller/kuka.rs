@@ -13,13 +13,25 @@ use crate::program::{Change, edited, entries};
 /// Degrees to which a zero is written: 0.2 µrad.
 const DECIMALS: usize = 5;
 
-/// The file with `$MAMES` of each axis moved by what its zero is off, and every other byte as it was.
+/// The file with `$MAMES` of each axis moved by what its zero is off, and a remark above them; every other byte is as it
+/// was.
 ///
 /// # Errors
 /// [`ControllerError`]: an axis without `$MAMES`, or a value that is no number.
-pub fn mastering(file: &[u8], nominal: &Arm, real: &Arm) -> Result<Vec<u8>, ControllerError> {
+pub fn mastering(
+    file: &[u8],
+    nominal: &Arm,
+    real: &Arm,
+    remark: Option<&str>,
+) -> Result<Vec<u8>, ControllerError> {
     let found = entries(file, "$mames");
     let mut changes: Vec<Change> = Vec::new();
+    let first = found.iter().filter_map(|entry| entry.value.as_ref()).map(|cell| cell.span.start);
+    if let (Some(remark), Some(first)) = (remark, first.min()) {
+        let start = file[..first].iter().rposition(|byte| *byte == b'\n').map_or(0, |end| end + 1);
+        let end = if file[..start].ends_with(b"\r\n") { "\r\n" } else { "\n" };
+        changes.push(Change { span: start..start, text: format!("; {remark}{end}") });
+    }
     for (k, (was, is)) in nominal.joints.iter().zip(&real.joints).enumerate() {
         let off = match is.motion {
             Motion::Revolute => (is.theta - was.theta).to_degrees(),
@@ -54,16 +66,18 @@ mod tests {
         let mut real = nominal.clone();
         real.joints[1].theta += 0.25_f64.to_radians();
         let file = b"&PARAM X\n$MAMES[1]=0.0 ;MAMES[2]=7\n  $MAMES[2] = -90.0 ; \xe4\n$TORQ=1\n";
-        let made = mastering(file, &nominal, &real).unwrap();
+        let made = mastering(file, &nominal, &real, None).unwrap();
         let expected =
             b"&PARAM X\n$MAMES[1]=0.0 ;MAMES[2]=7\n  $MAMES[2] = -89.75000 ; \xe4\n$TORQ=1\n";
         assert_eq!(made, expected);
-        let error = mastering(b"$MAMES[1]=0\n", &nominal, &real).unwrap_err();
+        let remarked = mastering(b"A\r\n$MAMES[1]=0\r\n$MAMES[2]=1", &nominal, &real, Some("lost"));
+        assert_eq!(remarked.unwrap(), b"A\r\n; lost\r\n$MAMES[1]=0\r\n$MAMES[2]=1.25000");
+        let error = mastering(b"$MAMES[1]=0\n", &nominal, &real, None).unwrap_err();
         assert_eq!(
             error.to_string(),
             "found no `$MAMES[2]`, expected the machine data of this robot"
         );
-        let error = mastering(b"\n$MAMES[2]=X+1\n", &nominal, &real).unwrap_err();
+        let error = mastering(b"\n$MAMES[2]=X+1\n", &nominal, &real, None).unwrap_err();
         assert_eq!(error.to_string(), "line 2: found `X+1`, expected a number of degrees or mm");
     }
 }

@@ -83,7 +83,11 @@ impl Reader<'_> {
                 motion if MOTIONS.contains(&motion) => return self.motion(&word, at),
                 relative if relative.ends_with("_rel") => {
                     let shown = word.to_uppercase();
-                    return self.leave_all(&shown, at, "its motion is relative to the point before");
+                    return self.leave_all(
+                        &shown,
+                        at,
+                        "its motion is relative to the point before",
+                    );
                 }
                 _ if kind.is_none() && at.peek().is_some_and(|token| token.kind == Kind::Word) => {
                     kind = Some(word);
