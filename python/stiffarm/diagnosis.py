@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, Optional, Union
 
 from . import _native
@@ -36,7 +36,7 @@ class Kept:
     @classmethod
     def of(cls, found: _native.Found) -> Kept:
         """Everything that is told of a diagnosis; what cannot be is kept as its error."""
-        each = {
+        each: dict[str, Callable[[], Any]] = {
             "json": found.json,
             "page": found.page,
             "text": found.text,
