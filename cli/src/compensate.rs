@@ -1,4 +1,8 @@
-//! `stiffarm compensate`: set-points at which the loaded arm stands where it should.
+//! `stiffarm compensate`: set-points at which the loaded arm stands where it should, and programs with such points.
+
+mod places;
+mod program;
+mod report;
 
 use std::path::{Path, PathBuf};
 
@@ -27,6 +31,9 @@ const EXAMPLES: &str = "\
 Examples:
   stiffarm compensate arm.toml --targets path.csv --wrench 0,0,-500,0,0,0 --out corrected.csv
   stiffarm compensate arm_stiff.toml --targets path.csv --tolerance 10um --out - | column -ts,
+  stiffarm compensate better.toml --program weld.src --program weld.dat --nominal arm.toml --out corrected/
+  stiffarm compensate better.toml --program pick.ls --nominal arm.toml --frame 1=500,0,200,0,0,0 \
+    --tool 2=robot --home 0,0,0,0,-90deg,0 --out corrected.ls --moves moves.csv
 
 TARGETS is a file like a measurement file: x y z and perhaps rx ry rz, where the tool should be in
 the base frame; perhaps q1 … qn, from where to start; perhaps fx … mz, a load for each row in place
@@ -38,7 +45,13 @@ OUT has the set-points of every row, what the loaded arm misses there (error) an
 without compensation (before), and a status: reached, nearest (at limit: the joints named) or
 unstable. Exit status 1 if a row is not reached. The arm is that of the robot file at static
 equilibrium: springs, beams, weights, the load. `stiffarm identify --write-robot` puts measured
-springs into it.";
+springs into it.
+
+A program is KRL (.src, .dat), RAPID (.mod), FANUC's TP in letters (.ls), URScript (.script) or a table of
+poses or joint values (.csv). Its points are rewritten so that the arm of the robot file stands where the
+controller, which computes with the arm of --nominal, believes; nothing else of the program changes. q1 … qn of both
+robot files are the controller's joint values, and their bases the controller's: [base] is left out.
+A frame or tool that the program does not define is given by --frame and --tool.";
 
 /// Joint set-points at which the loaded arm stands at the targets
 #[derive(clap::Args)]
@@ -47,8 +60,10 @@ pub struct Args {
     #[command(flatten)]
     robot: RobotArgs,
     /// Where the tool should be (CSV)
-    #[arg(long, value_name = "CSV")]
-    targets: PathBuf,
+    #[arg(long, value_name = "CSV", required_unless_present = "program")]
+    targets: Option<PathBuf>,
+    #[command(flatten)]
+    program: program::ProgramArgs,
     /// Load on the tool: base axes, at the tool origin; N and N·m, or with a unit [default: the
     /// targets' own, else the links' weights alone]
     #[arg(long, value_name = "fx,fy,fz,mx,my,mz", allow_hyphen_values = true)]
@@ -65,8 +80,9 @@ pub struct Args {
     /// Seed of these postures; the same seed gives the same bytes
     #[arg(long, default_value_t = 0)]
     seed: u64,
-    /// Write the set-points (`-`: to standard output, in place of the screen)
-    #[arg(long, value_name = "CSV")]
+    /// Write the set-points, or the program: a file, of several files a folder (`-`: to standard output, in
+    /// place of the screen)
+    #[arg(long, value_name = "FILE")]
     out: Target,
 }
 
@@ -84,13 +100,17 @@ pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     };
     let given = args.wrench.as_ref().map(|text| wrench("--wrench", text)).transpose()?;
     let source = args.robot.load(host)?;
+    let Some(path) = &args.targets else {
+        let load = given.unwrap_or_default();
+        return args.program.run(source, (load, search), &args.out, host);
+    };
     let arm = source.arm()?;
     let whole = Whole { arm: &arm, known: &source.known };
     let inverse = Branches::of(&source);
-    let (targets, starts) = targets(&args.targets, &source, host)?;
+    let (targets, starts) = targets(path, &source, host)?;
     doubts::units(&arm, &targets).iter().for_each(|doubt| host.note(doubt));
     if given.is_some() && targets.wrench_in.iter().any(Option::is_some) {
-        let message = format!("--wrench: {} has loads of its own", args.targets.display());
+        let message = format!("--wrench: {} has loads of its own", path.display());
         return Err(Failure::with_help(message, "leave out --wrench or the columns fx … mz"));
     }
     let gives = |joint: &Joint| joint.compliance != 0.0 || joint.beam.is_some();

@@ -93,6 +93,9 @@ pub struct Args {
     /// Print the evidence of so many findings, the largest first; of the others their numbers
     #[arg(long, value_name = "N", default_value_t = TOP, hide_default_value = true)]
     top: usize,
+    /// Write a certificate of measurements: one sheet of A4 as PDF, legible in black and white
+    #[arg(long, value_name = "OUT.pdf")]
+    certificate: Option<Target>,
     /// Print every finding, parameter and reason, however small
     #[arg(long, conflicts_with = "top")]
     all: bool,
@@ -151,6 +154,20 @@ pub trait Found: Send + Sync {
         document.html(&embedded)
     }
 
+    /// What a certificate says.
+    ///
+    /// # Errors
+    /// [`Failure`]: a log alone, which has no poses.
+    fn certificate(&self) -> Result<Document, Failure> {
+        match self.campaign() {
+            Some(found) => found.certified(),
+            None => Err(Failure::with_help(
+                "--certificate: found a joint log, expected measurements of poses",
+                "diagnose measurements, alone or with the log",
+            )),
+        }
+    }
+
     /// The robot file with all that was found.
     ///
     /// # Errors
@@ -185,8 +202,12 @@ pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     host.put(&args.json, || found.json())?;
     args.write_arm(&*found, host)?;
     host.put(&args.report, || found.page())?;
+    if let Some(target) = &args.certificate {
+        let bytes = found.certificate()?.pdf();
+        host.stream(target, &mut |to| to.write_all(&bytes).map(|()| true))?;
+    }
     let [robot, urdf, mjcf] = args.arms();
-    if host.shows(&[&args.json, &args.report, robot, urdf, mjcf]) {
+    if host.shows(&[&args.json, &args.report, &args.certificate, robot, urdf, mjcf]) {
         host.print(&found.text(if args.all { usize::MAX } else { args.top })?)?;
     }
     Ok(match found.campaign() {

@@ -8,6 +8,7 @@
 mod check;
 mod compensate;
 mod completions;
+mod controller;
 mod diagnose;
 mod document;
 #[cfg(test)]
@@ -99,6 +100,7 @@ enum Command {
     Simulate(simulate::Args),
     Withhold(withhold::Args),
     Compensate(compensate::Args),
+    Controller(controller::Args),
     Papers(papers::Args),
     Completions(completions::Args),
     Man(man::Args),
@@ -220,6 +222,7 @@ fn execute(command: Command, host: &Host) -> Result<Verdict, Failure> {
         Command::Simulate(args) => simulate::run(&args, host),
         Command::Withhold(args) => withhold::run(&args, host),
         Command::Compensate(args) => compensate::run(&args, host),
+        Command::Controller(args) => controller::run(&args, host),
         Command::Papers(args) => papers::run(&args, host),
         Command::Completions(args) => completions::run(&args, host),
         Command::Man(args) => man::run(&args, host),

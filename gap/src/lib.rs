@@ -12,6 +12,7 @@
 //! This crate returns data and structured errors; it prints nothing.
 
 pub mod compensate;
+pub mod controller;
 pub mod corrected;
 pub mod dexterity;
 pub mod diagnose;
@@ -34,6 +35,7 @@ pub mod performance;
 pub mod plant;
 pub mod pool;
 pub mod predicted;
+pub mod program;
 pub mod readings;
 pub mod report;
 pub mod rng;

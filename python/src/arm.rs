@@ -133,6 +133,12 @@ impl Arm {
         &self.text
     }
 
+    /// The labels of the table's rows, base to tip.
+    #[getter]
+    fn joint_names(&self) -> Vec<&str> {
+        self.source.robot.joints.iter().map(|joint| joint.name.as_str()).collect()
+    }
+
     /// `revolute` or `prismatic`, base to tip.
     #[getter]
     fn joint_types(&self) -> Vec<&'static str> {
@@ -262,6 +268,11 @@ impl Arm {
         let whole = matches!(parts[..], [one] if one.len() == count * n);
         let joined = if whole { Vec::new() } else { join(&parts, count, n) };
         let states = if whole { parts[0] } else { &joined[..] };
+        let per_pose = states.len() / count.max(1);
+        let is_batch = !dimensions.is_empty();
+        let missing = if is_batch { missing(states, per_pose) } else { Vec::new() };
+        let filled = filled(states, per_pose, &missing);
+        let states = if missing.is_empty() { states } else { &filled[..] };
         let loads = wrench.as_ref().map(|(_, array)| array.try_readonly()).transpose()?;
         let loads = loads.as_ref().map(|part| part.as_slice()).transpose()?;
         let none = [0.0; 6];
@@ -282,7 +293,13 @@ impl Arm {
         let place = (&dimensions[..], rows * columns);
         Shape::of(output, n).fill(py, place, out, single, |blocks| {
             let mut work = || match finite() {
-                Ok(()) => Ok(self.engines.evaluate(&asked, poses, blocks)),
+                Ok(()) => {
+                    let done = self.engines.evaluate(&asked, poses, blocks);
+                    for pose in &missing {
+                        blocks[pose * rows * columns..][..rows * columns].fill(f64::NAN);
+                    }
+                    Ok(done)
+                }
                 Err(wrong) => Err(wrong),
             };
             match if count > FEW { py.detach(work) } else { work() } {
@@ -377,6 +394,28 @@ fn join(parts: &[&[f64]], count: usize, n: usize) -> Vec<f64> {
         }
     }
     states
+}
+
+/// The poses, from 0, whose values are missing: one of them is not a number.
+fn missing(states: &[f64], per_pose: usize) -> Vec<usize> {
+    if per_pose == 0 || !states.iter().fold(false, |bad, x| bad | x.is_nan()) {
+        return Vec::new();
+    }
+    let poses = states.chunks(per_pose).enumerate();
+    poses.filter(|(_, pose)| pose.iter().any(|x| x.is_nan())).map(|(k, _)| k).collect()
+}
+
+/// The same with the first pose that is there, else zeros, in place of those that are missing.
+fn filled(states: &[f64], per_pose: usize, missing: &[usize]) -> Vec<f64> {
+    if missing.is_empty() {
+        return Vec::new();
+    }
+    let first =
+        states.chunks(per_pose).enumerate().find(|(k, _)| missing.binary_search(k).is_err());
+    let pose = first.map_or(vec![0.0; per_pose], |(_, pose)| pose.to_vec());
+    let mut all = states.to_vec();
+    missing.iter().for_each(|k| all[k * per_pose..][..per_pose].copy_from_slice(&pose));
+    all
 }
 
 /// Where the first number is that is not finite.

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use nalgebra::Vector6;
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
-use pyo3::types::PyTuple;
+use pyo3::types::{PyBytes, PyTuple};
 use stiffarm_cli::host::Host;
 use stiffarm_cli::{Catalogues, Format, Predicted, PredictedLog, RobotArgs, Settings, TOP};
 use stiffarm_gap::diagnose::Prediction;
@@ -36,6 +36,12 @@ impl Found {
     fn page(&self, py: Python<'_>) -> PyResult<String> {
         let page = py.detach(|| self.found.page());
         page.map_err(|failure| error(py, &failure))
+    }
+
+    /// The certificate, a PDF.
+    fn certificate<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        let sheet = py.detach(|| self.found.certificate().map(|document| document.pdf()));
+        sheet.map(|bytes| PyBytes::new(py, &bytes)).map_err(|failure| error(py, &failure))
     }
 
     /// As it stands on a screen.

@@ -170,6 +170,13 @@ class Arm(_native.Arm, Outputs):
         more = f", {len(self.effects)} effects" if self.effects else ""
         return f"<Arm {self.name}: {self.dof} joints{more}>"
 
+    def __eq__(self, other: object) -> bool:
+        """Whether both have the same robot file, to the byte."""
+        return self.toml == other.toml if isinstance(other, Arm) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(self.toml)
+
     def __reduce__(self) -> tuple[Any, ...]:
         if self.built_in:
             return Arm.load, (self.given,)

@@ -1,7 +1,8 @@
 """Tables that come through the Arrow C stream interface, without a library of Arrow's.
 
 The three structures are those of https://arrow.apache.org/docs/format/CDataInterface.html and CStreamInterface.html; what is read
-are numbers (decimals as doubles), truth values and texts, which is what measurements have.
+are numbers (decimals as doubles), truth values, texts, and times in seconds: timestamps and dates since 1970, as those of workbooks
+and texts are, times of the day since midnight, and durations.
 """
 
 from __future__ import annotations
@@ -60,6 +61,12 @@ _Stream._fields_ = [
 _NUMBERS = {
     "c": "i1", "C": "u1", "s": "i2", "S": "u2", "i": "i4", "I": "u4", "l": "i8", "L": "u8", "e": "f2", "f": "f4", "g": "f8",
 }  # fmt: skip
+
+#: Units of times in a second.
+_UNITS = {"s": 1, "m": 10**3, "u": 10**6, "n": 10**9}
+
+#: Seconds of a day.
+_DAY = 86400
 
 _pointer = ctypes.pythonapi.PyCapsule_GetPointer
 _pointer.restype = ctypes.c_void_p
@@ -129,6 +136,12 @@ def _cells(name: str, field: Any, array: Any, skipped: int, length: int) -> list
         cells = buffer(1, _NUMBERS[kind], offset + length)[offset:].tolist()
     elif kind == "b":
         cells = bits(1).tolist()
+    elif kind == "tdD":
+        cells = [_DAY * day for day in buffer(1, "i4", offset + length)[offset:].tolist()]
+    elif kind[:2] in ("ts", "tt", "tD", "td") and kind[2:3] in _UNITS:
+        wide = "i4" if kind in ("tts", "ttm") else "i8"
+        # Whole numbers are divided exactly, and rounded once.
+        cells = [number / _UNITS[kind[2]] for number in buffer(1, wide, offset + length)[offset:].tolist()]
     elif kind.startswith("d:"):
         _, scale, size = (int(word) for word in f"{kind[2:]},128".split(",")[:3])
         packed, size = buffer(1, "u1", size // 8 * (offset + length)).tobytes(), size // 8
@@ -144,7 +157,7 @@ def _cells(name: str, field: Any, array: Any, skipped: int, length: int) -> list
     elif kind == "n":
         return [None] * length
     else:
-        raise TypeError(f"{name}: found Arrow's type {kind!r}, expected numbers, truth values or texts")
+        raise TypeError(f"{name}: found Arrow's type {kind!r}, expected numbers, truth values, texts or times")
     if array.buffers[0] and array.null_count != 0:
         cells = [cell if there else None for cell, there in zip(cells, bits(0).tolist())]
     return cells

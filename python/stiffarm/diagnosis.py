@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, Optional, Union
 
 from . import _native
@@ -24,6 +24,68 @@ if TYPE_CHECKING:
 Own = Union[_native.Effect, _native.LogEffect]
 
 
+class Kept:
+    """What of a diagnosis is kept by a pickle or a copy: everything that is told, without the data and the search.
+
+    It predicts no other rows: ``found.corrected`` does, as an arm (:func:`stiffarm.predict`).
+    """
+
+    def __init__(self, told: dict[str, Any]) -> None:
+        self._told = told
+
+    @classmethod
+    def of(cls, found: _native.Found) -> Kept:
+        """Everything that is told of a diagnosis; what cannot be is kept as its error."""
+        each: dict[str, Callable[[], Any]] = {
+            "json": found.json,
+            "page": found.page,
+            "text": found.text,
+            "corrected": found.corrected,
+            "caveats": found.caveats,
+            "certificate": found.certificate,
+            "mjcf": lambda: found.exported(True),
+            "urdf": lambda: found.exported(False),
+        }
+        told: dict[str, Any] = {}
+        for name, tell in each.items():
+            try:
+                told[name] = tell()
+            except _native.Error as error:
+                told[name] = ValueError(str(error))
+        return cls(told)
+
+    def _get(self, name: str) -> Any:
+        if isinstance(self._told[name], Exception):
+            raise self._told[name]
+        return self._told[name]
+
+    def json(self) -> str:
+        return str(self._get("json"))
+
+    def page(self) -> str:
+        return str(self._get("page"))
+
+    def text(self) -> str:
+        return str(self._get("text"))
+
+    def corrected(self) -> Optional[str]:
+        text: Optional[str] = self._get("corrected")
+        return text
+
+    def caveats(self) -> list[str]:
+        return list(self._get("caveats"))
+
+    def certificate(self) -> bytes:
+        return bytes(self._get("certificate"))
+
+    def exported(self, mjcf: bool) -> tuple[str, Optional[str]]:
+        text, lost = self._get("mjcf" if mjcf else "urdf")
+        return text, lost
+
+    def predict(self, *_: Any) -> Any:
+        raise ValueError("a diagnosis that was pickled or copied has no data to predict with: use stiffarm.predict(found.corrected, ...)")
+
+
 class Diagnosis:
     """What a diagnosis found; ``str`` of it is the command line's screen, and a notebook shows its page.
 
@@ -33,7 +95,7 @@ class Diagnosis:
     are the campaign's, then the log's.
     """
 
-    def __init__(self, found: _native.Found) -> None:
+    def __init__(self, found: Union[_native.Found, Kept]) -> None:
         self._found = found
         self._dict: Optional[Record] = None
 
@@ -41,6 +103,9 @@ class Diagnosis:
         if name.startswith("_"):
             raise AttributeError(name)
         return getattr(self.to_dict(), name)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Diagnosis, (self._found if isinstance(self._found, Kept) else Kept.of(self._found),)
 
     def __str__(self) -> str:
         return self._found.text()
@@ -148,6 +213,14 @@ class Diagnosis:
             with open(path, "w", encoding="utf-8") as file:
                 file.write(page)
         return page
+
+    def to_pdf(self, path: Optional[Path] = None) -> bytes:
+        """The certificate that the command line writes with ``--certificate``: one sheet; written to `path` too, if there is one."""
+        sheet = self._found.certificate()
+        if path is not None:
+            with open(path, "wb") as file:
+                file.write(sheet)
+        return sheet
 
     def _repr_html_(self) -> str:
         return framed(self._found.page(), str(self))

@@ -50,11 +50,16 @@ def _findings(axes: Any, found: Record) -> None:
 
 
 def _joints(axes: Any, found: Record) -> None:
-    rows = range(len(found.gap))
+    rows = range(len(found.gap) + 1)
+    whole = found.shrink
     for shift, when, shade in ((-0.2, "before", "0.8"), (0.2, "after", "0.4")):
-        sizes = [joint[when] / joint["size"] for joint in found.gap]
+        sizes = [joint[when] / joint["size"] for joint in found.gap] + [whole[when]]
         axes.barh([row + shift for row in rows], sizes, height=0.4, color=shade, label=f"{when} the findings")
-    axes.set_yticks(rows, [f"joint {row + 1}" for row in rows])
-    whole = "torques' spread" if found.rows == "torque" else "position errors"
-    axes.set_xlabel(f"gap, rms, on time that no fit has seen, in parts of the {whole}")
+    # What is left is the mean's, in another log.
+    left = sorted(whole["before"] * (1.0 - part) for part in whole["shrink_ci95"])
+    errors = [[max(0.0, whole["after"] - left[0])], [max(0.0, left[1] - whole["after"])]]
+    axes.errorbar([whole["after"]], [len(found.gap) + 0.2], xerr=errors, color="0.0", capsize=3, linestyle="none")
+    axes.set_yticks(rows, [f"joint {row + 1}" for row in rows[:-1]] + ["mean"])
+    parts = "torques' spread" if found.rows == "torque" else "position errors"
+    axes.set_xlabel(f"gap, rms, on time that no fit has seen, in parts of the {parts}")
     axes.legend()

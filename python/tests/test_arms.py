@@ -286,6 +286,7 @@ def test_arms_are_made_of_anything(tmp_path, at_root):
     ur5 = stiffarm.Arm.load("tests/data/urdf/ur5.urdf", base="base_link", tip="tool0")
     assert ur5.dof == 6 and ur5.jacobian([0.1] * 6)[5, 0] == 1.0
     copy = pickle.loads(pickle.dumps(ur5))
+    assert copy == ur5 and hash(copy) == hash(ur5) and copy != stiffarm.Arm.load("ur10") and copy != "ur5"
     assert numpy.array_equal(copy.pose([0.3] * 6), ur5.pose([0.3] * 6))
     ur5.save(tmp_path / "ur5.toml")
     assert stiffarm.Arm.load(tmp_path / "ur5.toml").toml == ur5.toml

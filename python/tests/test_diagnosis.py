@@ -1,6 +1,8 @@
 """What a diagnosis is in Python beyond what the command line writes."""
 
 import _thread
+import copy
+import pickle
 import threading
 import time
 
@@ -44,6 +46,20 @@ def test_notebooks_and_plots(found):
     pytest.importorskip("matplotlib")
     figure = found.plot()
     assert len(figure.axes[0].patches) == 1 + len(found.findings)
+
+
+def test_a_certificate(found, tmp_path):
+    sheet = found.to_pdf(tmp_path / "found.pdf")
+    assert sheet.startswith(b"%PDF-1.") and (tmp_path / "found.pdf").read_bytes() == sheet
+
+
+def test_pickles_and_copies(found):
+    again = pickle.loads(pickle.dumps(copy.deepcopy(found)))
+    assert (str(again), again.to_json(), again.to_html(), again.to_pdf()) == (str(found), found.to_json(), found.to_html(), found.to_pdf())
+    assert again.corrected == found.corrected and again.to_urdf() == found.to_urdf()
+    assert again.sets == found.sets and again.findings == found.findings
+    with pytest.raises(ValueError, match="no data to predict with"):
+        again.predict({"q1": [0.0]})
 
 
 def test_remarks_are_logged(caplog, campaign):

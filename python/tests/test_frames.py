@@ -1,5 +1,6 @@
 """Measurements from whatever holds columns."""
 
+import datetime
 import decimal
 import sys
 
@@ -92,7 +93,32 @@ def test_arrow_types():
     frame = polars.DataFrame({"text": want["text"], "number": want["number"]})
     assert arrow.columns(frame) == frame.to_dict(as_series=False)
     with pytest.raises(TypeError, match="Arrow's type"):
-        arrow.columns(pyarrow.table({"days": pyarrow.array([0], pyarrow.date32())}))
+        arrow.columns(pyarrow.table({"lists": [[0]]}))
+
+
+def test_arrow_times_are_seconds():
+    pyarrow = pytest.importorskip("pyarrow")
+    from stiffarm import arrow
+
+    moment, day = datetime.datetime(2026, 1, 2, 3, 4, 5, 250000, datetime.timezone.utc), datetime.date(2026, 1, 2)
+    seconds = moment.timestamp()
+    kinds = {unit: pyarrow.timestamp(unit) for unit in ("s", "ms", "us", "ns")}
+    kinds["zone"] = pyarrow.timestamp("us", tz="Europe/Vienna")
+    times = {name: pyarrow.array([moment, None], kind) for name, kind in kinds.items() if name != "s"}
+    table = pyarrow.table({
+        **times,
+        "s": pyarrow.array([moment.replace(microsecond=0), None], kinds["s"]),
+        "day": pyarrow.array([day, None], pyarrow.date32()),
+        "date": pyarrow.array([day, None], pyarrow.date64()),
+        "clock": pyarrow.array([datetime.time(0, 1, 0, 500000), None], pyarrow.time32("ms")),
+        "fine": pyarrow.array([datetime.time(0, 1, 0, 500000), None], pyarrow.time64("us")),
+        "took": pyarrow.array([datetime.timedelta(milliseconds=1500), None], pyarrow.duration("ms")),
+    })  # fmt: skip
+    found = {name: cells[0] for name, cells in arrow.columns(table).items() if cells[1] is None}
+    midnight = datetime.datetime(2026, 1, 2, tzinfo=datetime.timezone.utc).timestamp()
+    want = {name: seconds for name in times} | {"s": seconds - 0.25, "day": midnight, "date": midnight}
+    assert found == want | {"clock": 60.5, "fine": 60.5, "took": 1.5}
+    assert arrow.columns(table.slice(1, 1))["clock"] == [None]
 
 
 def test_what_is_no_frame():

@@ -92,7 +92,9 @@ def test_the_result(found):
     assert found._repr_html_().startswith("<iframe srcdoc=")
     pytest.importorskip("matplotlib")
     axes = found.plot().axes[0]
-    assert len(axes.patches) == 2 * 6
+    assert len(axes.patches) == 2 * (6 + 1)
+    low, high = axes.containers[-1].lines[2][0].get_segments()[0][:, 0]
+    assert low <= found.to_dict().shrink.after <= high
 
 
 def test_progress_is_told(motion, said):

@@ -204,6 +204,14 @@ impl Campaign {
         }
     }
 
+    /// What a certificate says.
+    pub(super) fn certified(&self) -> Result<Document, Failure> {
+        let explanation = &self.diagnosed.explanation;
+        let gaps = explanation.predict(&self.data)?;
+        let placed = explanation.placed();
+        Ok(self.reported(None).certificate(&Fitted { placed: &placed, gaps: &gaps }))
+    }
+
     /// What the models before and after make of other measurements of the arm.
     ///
     /// # Errors

@@ -1,12 +1,14 @@
-//! What a command reports: one tree of blocks, which [`screen`] prints to a terminal and [`page`] as HTML.
+//! What a command reports: one tree of blocks, which [`screen`] prints to a terminal, [`page`] as HTML
+//! and [`print`](mod@print) on paper.
 //!
-//! A report is made into a [`Document`] once; the two printers decide how a block looks, never what it says.
+//! A report is made into a [`Document`] once; the printers decide how a block looks, never what it says.
 
 pub mod campaign;
 pub mod figure;
 mod findings;
 pub mod log;
 mod page;
+mod print;
 pub mod report;
 mod screen;
 mod table;

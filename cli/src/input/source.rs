@@ -4,7 +4,7 @@ use std::path::Path;
 
 use nalgebra::Isometry3;
 use serde::Deserialize as _;
-use stiffarm_codegen::robot::{Dimension as Cell, Effect, Motion, Robot, Symbol};
+use stiffarm_codegen::robot::{Dimension as Cell, Effect, Frame, Motion, Robot, Symbol};
 use stiffarm_gap::diagnose::{Cover, Trust};
 use stiffarm_gap::effects::Known;
 use stiffarm_gap::io::{Dimension, nearest};
@@ -130,6 +130,14 @@ impl Source {
     /// As [`Source::arm`].
     pub fn arm_at_its_base(&self) -> Result<Arm, Failure> {
         Ok(Arm { base: Isometry3::identity(), ..self.arm()? })
+    }
+
+    /// The same robot in its base's own axes.
+    #[must_use]
+    pub fn at_its_base(mut self) -> Source {
+        self.robot.base = Frame::default();
+        self.file.base = Frame::default();
+        self
     }
 
     /// Columns of joint values as a controller shows them: `q1[deg]`, `q3[mm]`.

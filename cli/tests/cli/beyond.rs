@@ -22,6 +22,7 @@ predict ROBOT docs/workbench/check.csv --json -
 simulate ROBOT --poses 2 --csv -
 withhold ROBOT --cases 2 --poses 6 --json - --quiet
 compensate ROBOT --targets docs/workbench/path.csv --out - --quiet
+controller ROBOT --format kuka-mastering --nominal kuka_kr240 --into tests/data/machine.dat
 robots
 import
 papers

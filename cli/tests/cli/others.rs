@@ -39,7 +39,7 @@ fn completions_know_the_commands() {
 }
 
 /// In the order of the alphabet.
-const COMMANDS: &str = "check compensate completions diagnose effects eval generate identify import man map \
+const COMMANDS: &str = "check compensate completions controller diagnose effects eval generate identify import man map \
                         measurements papers poses predict robots simulate withhold";
 
 #[test]

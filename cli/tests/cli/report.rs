@@ -107,3 +107,22 @@ fn needs_chromium_a_browser_reads_the_ledger_and_the_withheld_check() {
         assert!(seen["files"][file].as_u64() >= Some(least), "{seen}");
     }
 }
+
+/// One sheet that says what the page says, the same bytes each time.
+#[test]
+fn a_certificate_is_one_sheet() {
+    let folder = Folder::new();
+    let (first, again) = (folder.name("a.pdf"), folder.name("b.pdf"));
+    let data = "robots/data/lin1991_table3.csv";
+    for file in [&first, &again] {
+        stiffarm(&["diagnose", "lin_planar", data, "--quiet", "--certificate", file]).good();
+    }
+    let bytes = std::fs::read(&first).expect("written");
+    assert!(bytes == std::fs::read(&again).expect("written"));
+    assert!(bytes.starts_with(b"%PDF-1.") && bytes.trim_ascii_end().ends_with(b"%%EOF"));
+    let text: String = bytes.iter().map(|b| *b as char).collect();
+    assert_eq!(text.matches("/Type /Page\n").count(), 1, "{text}");
+    for said in ["Lin 1991 two-link planar arm", "SHA-256 of the robot file", "7.41", "ISO 9283"] {
+        assert!(text.contains(said), "no {said} in {text}");
+    }
+}

@@ -6,6 +6,7 @@
 //! SI units, radians. A load is a wrench `[fx fy fz mx my mz]`, constant in base axes, and acts at
 //! the tool origin.
 
+pub mod program;
 pub mod reach;
 
 use crate::diagnose::data::LARGEST;

@@ -1,5 +1,6 @@
 //! The document of a campaign at rest.
 
+mod certificate;
 mod changes;
 mod details;
 mod errors;
