@@ -142,36 +142,42 @@ impl Graph {
         if key(a) < key(b) { (a, b) } else { (b, a) }
     }
 
-    /// The constant among two operands, and the other one.
-    fn apart(&self, a: Expr, b: Expr) -> Option<(Number, Expr)> {
-        match (self.number_of(a), self.number_of(b)) {
-            (Some(n), _) => Some((n, b)),
-            (_, Some(n)) => Some((n, a)),
-            _ => None,
-        }
-    }
-
     /// The sum of two constants, or of a constant and a sum that ends in one.
     fn add_constants(&mut self, a: Expr, b: Expr) -> Option<Expr> {
         if let (Some(x), Some(y)) = (self.number_of(a), self.number_of(b)) {
             return Some(self.number(x + y));
         }
-        let (constant, other) = self.apart(a, b)?;
+        let (constant, other) = match (self.number_of(a), self.number_of(b)) {
+            (Some(x), None) => (x, b),
+            (None, Some(y)) => (y, a),
+            _ => return None,
+        };
         let Node::Add(low, high) = self.node(other) else { return None };
         let flip = other.is_negative();
-        let (inner, rest) = self.apart(low.signed(flip), high.signed(flip))?;
+        let (low, high) = (low.signed(flip), high.signed(flip));
+        let (inner, rest) = match (self.number_of(low), self.number_of(high)) {
+            (Some(n), _) => (n, high),
+            (_, Some(n)) => (n, low),
+            _ => return None,
+        };
         let folded = self.number(constant + inner);
         Some(self.add(folded, rest))
     }
 
     /// The product of two constants, or of a constant and a product that begins with one.
     fn mul_constants(&mut self, a: Expr, b: Expr) -> Option<Expr> {
-        if let (Some(x), Some(y)) = (self.number_of(a), self.number_of(b)) {
-            return Some(self.number(x * y));
-        }
-        let (constant, other) = self.apart(a, b)?;
+        let (constant, other) = match (self.number_of(a), self.number_of(b)) {
+            (Some(x), Some(y)) => return Some(self.number(x * y)),
+            (Some(x), None) => (x, b),
+            (None, Some(y)) => (y, a),
+            _ => return None,
+        };
         let Node::Mul(low, high) = self.node(other) else { return None };
-        let (inner, rest) = self.apart(low, high)?;
+        let (inner, rest) = match (self.number_of(low), self.number_of(high)) {
+            (Some(n), _) => (n, high),
+            (_, Some(n)) => (n, low),
+            _ => return None,
+        };
         let folded = self.number(constant * inner);
         Some(self.mul(folded, rest))
     }

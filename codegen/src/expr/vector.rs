@@ -27,7 +27,7 @@ impl Graph {
 
     /// `a · b`.
     pub fn dot3(&mut self, a: Vec3, b: Vec3) -> Expr {
-        self.products(a.into_iter().zip(b))
+        self.products([(a[0], b[0]), (a[1], b[1]), (a[2], b[2])])
     }
 
     /// The sum of the products of these pairs.
