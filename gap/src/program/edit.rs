@@ -66,12 +66,15 @@ impl Cell {
     }
 }
 
-/// The text with the changes made, of which no two overlap.
+/// The text with the changes made; of two that overlap the first.
 pub fn edited(text: &[u8], mut changes: Vec<Change>) -> Vec<u8> {
     changes.sort_by_key(|change| change.span.start);
     let mut out = Vec::with_capacity(text.len() + 8 * changes.len());
     let mut at = 0;
     for Change { span, text: new } in changes {
+        if span.start < at {
+            continue;
+        }
         out.extend_from_slice(&text[at..span.start]);
         out.extend_from_slice(new.as_bytes());
         at = span.end;

@@ -150,6 +150,8 @@ fn urscript_has_points_in_motions_and_variables() {
     ];
     assert_eq!(told(&program), expected);
     assert_eq!(program.points[0].near.as_ref().map(|q| q[1]), Some(-1.6));
+    let named = all(&[("cell.script", "movej(q=[1, 2, 3, 4, 5, 6], a=1)\nmovej(q)\n")]);
+    assert_eq!(told(&named), ["movej joints 1 in 0.000 of default"]);
     let left = left(&program);
     for name in ["Waypoint_1_q", "Plane", "movel", "movej", "other", "p[…]"] {
         assert!(left.iter().any(|left| left.starts_with(name)), "{name}: {left:?}");

@@ -65,10 +65,13 @@ impl Reader<'_> {
         while let Some(token) = at.peek() {
             let name = at.shown(token.span.clone());
             if at.word().is_none() {
-                at.next();
+                // A parameter of a call is no variable.
+                if !(at.is_mark(b'(') && at.brackets()) {
+                    at.next();
+                }
                 continue;
             }
-            // A comparison, or a parameter of a call, is no assignment.
+            // A comparison is no assignment.
             let mut value = at.clone();
             if !value.mark(b'=') || value.is_mark(b'=') {
                 continue;

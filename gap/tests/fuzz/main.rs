@@ -7,3 +7,4 @@
 mod effects;
 mod logs;
 mod measurements;
+mod programs;
