@@ -30,8 +30,8 @@ pub fn hidden(
         tell(
             "torque_scale",
             Spot::at(Place::Arm).to_string(),
-            "one scale of all torques together: with free masses it is not distinguishable from a scale of all \
-             inertias and frictions; only a payload of known mass determines it",
+            "with free masses one scale of all torques is not distinguishable from a scale of all inertias and \
+             frictions; only a payload of known mass determines it",
         );
     }
     let loads = Loads::default();
