@@ -77,7 +77,7 @@ impl Reader<'_> {
                     at.mark(b'}');
                 }
                 if at.marks(b":=") && at.is_mark(b'[') {
-                    let list = self.list(&mut at)?;
+                    let list = self.list(&mut at, DEEPEST)?;
                     self.value(&shown, &index, list);
                 }
             }
@@ -113,7 +113,7 @@ impl Reader<'_> {
 
     /// A list that is assigned to nothing: of an expression.
     fn loose(&mut self, at: &mut Cursor<'_>) -> Result<(), Fault> {
-        let list = self.list(at)?;
+        let list = self.list(at, DEEPEST)?;
         if self.point("", &list).is_some() {
             self.leave("[…]", list.span, "it stands in an expression");
         }
@@ -146,7 +146,7 @@ impl Reader<'_> {
         let tool = tool.unwrap_or_else(last);
         for argument in &mut arguments {
             if argument.is_mark(b'[') {
-                let list = self.list(argument)?;
+                let list = self.list(argument, DEEPEST)?;
                 let Some(mut point) = self.point(shown, &list) else { continue };
                 (point.frame, point.tool) = (object.clone(), tool.clone());
                 (point.rank, point.is_fixed) = (Some(self.found.uses.next()), true);
@@ -214,7 +214,7 @@ impl Reader<'_> {
         self.found.left.push(Left { name, file: self.file, span, because });
     }
 
-    fn list<'t>(&self, at: &mut Cursor<'t>) -> Result<List<'t>, Fault> {
+    fn list<'t>(&self, at: &mut Cursor<'t>, levels: usize) -> Result<List<'t>, Fault> {
         let start = at.span().start;
         at.mark(b'[');
         let mut elements = Vec::new();
@@ -223,8 +223,8 @@ impl Reader<'_> {
             if at.is_at_end() {
                 return Err(fault(self.file, at, "`]`", "each [ of a value has its ]"));
             }
-            elements.push(if element.is_mark(b'[') {
-                Element::List(self.list(&mut element)?)
+            elements.push(if element.is_mark(b'[') && levels > 0 {
+                Element::List(self.list(&mut element, levels - 1)?)
             } else {
                 let whole = element.clone();
                 let number = element.number(1.0).filter(|_| element.is_at_end());
@@ -236,6 +236,9 @@ impl Reader<'_> {
         Ok(List { elements, span: start..end })
     }
 }
+
+/// Levels of brackets below a value's first: an array of robtargets has two, a work object two.
+const DEEPEST: usize = 4;
 
 const COMPUTED: &str = "its value is not written as numbers alone";
 

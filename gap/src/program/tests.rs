@@ -160,6 +160,14 @@ fn urscript_has_points_in_motions_and_variables() {
 }
 
 #[test]
+fn deep_brackets_end() {
+    let deep = |open: &str| open.repeat(2000);
+    assert!(program("a.script", &format!("movel({}", deep("pose_trans(f,"))).points.is_empty());
+    let brackets = deep("[") + &deep("]");
+    assert!(program("a.mod", &format!("CONST robtarget p:={brackets};")).points.is_empty());
+}
+
+#[test]
 fn a_table_has_poses_or_joint_values() {
     let text = "# made by hand\nname, x[mm],y[mm],z[mm],rx[deg],ry[deg],rz[deg],v\n\"a,b\", 1,2,3,4,5,6,fast\r\n";
     let found = program("path.csv", text);

@@ -15,6 +15,11 @@ use crate::io::Convention;
 
 const MOTIONS: [&str; 5] = ["movej", "movel", "movep", "movec", "servoj"];
 
+/// Calls around a target: one inverse and a few frames.
+const MOST_CALLS: usize = 8;
+
+const NESTED: &str = "it is computed by too many functions";
+
 /// A pose or joint values that are written as numbers, or not.
 enum Literal {
     Point(Values),
@@ -28,11 +33,13 @@ struct Reader<'f> {
     tool: Place,
     /// The values of variables, and whether a motion goes to them is not known yet.
     variables: HashMap<String, Vec<Point>>,
+    /// Calls around the target that is read.
+    calls: usize,
 }
 
 pub(super) fn read(files: &[File], found: &mut Found) {
     let unsaid = Place::unsaid();
-    let mut reader = Reader { found, file: 0, tool: unsaid, variables: HashMap::new() };
+    let mut reader = Reader { found, file: 0, tool: unsaid, variables: HashMap::new(), calls: 0 };
     for (file, File { text, .. }) in files.iter().enumerate() {
         reader.file = file;
         let mut tokens = lexer::tokens(text, &Language::UrScript.style());
@@ -162,9 +169,12 @@ impl Reader<'_> {
         arguments.mark(b',');
         let second = arguments.until(b",");
         match word.as_str() {
+            _ if self.calls >= MOST_CALLS => self.leave(motion, span, NESTED),
             "get_inverse_kin" => {
                 let near = self.joints(second);
+                self.calls += 1;
                 self.target(motion, first, frame, near);
+                self.calls -= 1;
             }
             "pose_trans" => {
                 let placed = match (frame, place(&mut first)) {
@@ -172,7 +182,9 @@ impl Reader<'_> {
                     (outer, inner) if *outer == Place::none() => inner,
                     _ => Place::Named(first.rest()),
                 };
+                self.calls += 1;
                 self.target(motion, second, &placed, near);
+                self.calls -= 1;
             }
             _ => self.leave(motion, span, "it is computed by a function"),
         }
