@@ -114,7 +114,7 @@ fn undefined(program: &Program, remarks: &[(&str, &Point, &Place)]) -> Failure {
             message
         };
         let help = format!("give it: --{what} {name}=POSE, {}", program.language.pose_format());
-        all.push(remark(program, point.file, &point.span, &message, &help));
+        all.push(remark(&program.files[point.file], &point.span, &message, &help));
     }
     Failure::File(all)
 }

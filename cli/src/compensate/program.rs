@@ -5,11 +5,10 @@ use std::path::{Path, PathBuf};
 use nalgebra::{Isometry3, Vector6};
 use stiffarm_codegen::derive::Given;
 use stiffarm_gap::compensate::program::{Before, Controlled, Moved, Placed, Unmoved};
-use stiffarm_gap::compensate::reach::Search;
+use stiffarm_gap::compensate::reach::{Search, rigid};
 use stiffarm_gap::measurement::Dimension;
 use stiffarm_gap::program::{Change, Fault, File, Language, Left, Point, Program, edited};
 use stiffarm_gap::whole::{Situation, Whole};
-use stiffarm_kernels::generic::Arm;
 
 use super::Verdict;
 use super::places::places;
@@ -106,7 +105,8 @@ impl ProgramArgs {
             if let Err(unmoved @ Unmoved::Undetermined(_)) = &moved {
                 let help = "give the joint values before it: --home q1,q2,…";
                 let message = format!("{}: {unmoved}", point.name);
-                return Err(mistake(&program, point.file, &point.span, &message, help));
+                let file = &program.files[point.file];
+                return Err(Failure::File(vec![remark(file, &point.span, &message, help)]));
             }
             outcomes.push(Outcome { point, moved });
             progress.add(1);
@@ -186,8 +186,7 @@ impl ProgramArgs {
         }
         let kept = files.clone();
         Program::read(files, language, joints).map_err(|Fault { file, span, message, help }| {
-            let program = Program { files: kept, language, points: Vec::new(), left: Vec::new() };
-            mistake(&program, file, &span, &message, &help)
+            Failure::File(vec![remark(&kept[file], &span, &message, &help)])
         })
     }
 
@@ -257,39 +256,19 @@ fn apart(to: &Path, from: &Path) -> Result<PathBuf, Failure> {
     }
 }
 
-/// The arm whose poses a controller computes: nothing gives way.
-fn rigid(arm: &Arm) -> Arm {
-    let mut rigid = arm.clone();
-    for joint in &mut rigid.joints {
-        (joint.compliance, joint.beam) = (0.0, None);
-    }
-    rigid
-}
-
-fn mistake(
-    program: &Program,
-    file: usize,
-    span: &std::ops::Range<usize>,
-    message: &str,
-    help: &str,
-) -> Failure {
-    Failure::File(vec![remark(program, file, span, message, help)])
-}
-
 /// At its place in a text; of a file that is no UTF-8 line and column are told in words.
 pub(super) fn remark(
-    program: &Program,
-    file: usize,
+    file: &File,
     span: &std::ops::Range<usize>,
     message: &str,
     help: &str,
 ) -> Remark {
-    let File { name, text } = &program.files[file];
+    let File { name, text } = file;
     let shown = std::str::from_utf8(text).ok().filter(|text| span.start < text.len());
     let (message, span) = match shown {
         Some(_) => (message.to_owned(), Some(span.clone())),
         None => {
-            let (line, column) = program.line_and_column(file, span.start);
+            let (line, column) = file.line_and_column(span.start);
             (format!("line {line}, column {column}: {message}"), None)
         }
     };

@@ -25,7 +25,7 @@ const WIDTH: usize = 100;
 /// A row for each point, in the order of the program, then one for each that is left.
 pub(super) fn moves(source: &Source, program: &Program, outcomes: &[Outcome<'_>]) -> String {
     type Row<'r> = (usize, usize, &'r str, Option<&'r Moved>, String);
-    let line = |file: usize, at: usize| program.line_and_column(file, at).0;
+    let line = |file: usize, at: usize| program.files[file].line_and_column(at).0;
     let moved = outcomes.iter().map(|Outcome { point, moved }| -> Row<'_> {
         let status = moved.as_ref().map_or_else(ToString::to_string, |_| "moved".to_owned());
         let at = line(point.file, point.span.start);
@@ -74,7 +74,7 @@ pub(super) fn screen(source: &Source, program: &Program, outcomes: &[Outcome<'_>
     }
     text.push('\n');
     let place = |file: usize, at: usize| {
-        let line = program.line_and_column(file, at).0;
+        let line = program.files[file].line_and_column(at).0;
         match program.files.len() {
             1 => format!("line {line}"),
             _ => format!("{}:{line}", program.files[file].name),

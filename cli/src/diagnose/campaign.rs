@@ -103,14 +103,14 @@ impl Campaign {
         drop(stages);
         // All that follows is of the file without its mistakes.
         let (mut source, mut arm, mut data) = (source, arm, data);
-        let mut mended = diagnosed.mended.take();
-        if let Some(mended) = &mut mended {
-            source.robot = mended.robot(&source.robot);
-            arm.clone_from(&mended.arm);
-            std::mem::swap(&mut data, &mut mended.data);
-        }
-        let check = |other| Check::of(&diagnosed, mended.as_ref(), &data, &other);
+        let mended = diagnosed.mended.take();
+        let diagnosed_rows = mended.as_ref().map_or(&data, |mended| &mended.data);
+        let check = |other| Check::of(&diagnosed, mended.as_ref(), diagnosed_rows, &other);
         let check = other.map(check).transpose()?;
+        if let Some(mended) = mended {
+            source.robot = mended.robot(&source.robot);
+            (arm, data) = (mended.arm, mended.data);
+        }
         let found = &diagnosed.diagnosis;
         let made = Provenance::of(first, hash, &source.text, host)?;
         let compared = settings.compare.as_ref();

@@ -75,6 +75,14 @@ pub fn told(findings: &[Found], most: usize, and: &str, said: impl Fn(&Found) ->
 }
 
 impl Finding {
+    /// Its parameters, at most so many before the rest is counted.
+    pub fn numbers(&self, most: usize) -> String {
+        let mut parameters: Vec<String> = self.parameters.iter().take(most).cloned().collect();
+        let rest = self.parameters.len() - parameters.len();
+        parameters.extend((rest > 0).then(|| format!("and {rest} more")));
+        parameters.join("; ")
+    }
+
     /// What findings of every kind of data have, with `rival` as what an alternative leaves is written
     /// and `whole` the error before any finding.
     pub fn of(

@@ -1,6 +1,6 @@
 //! A document on a terminal.
 
-use super::{Block, Cell, Document, Finding, Row, Table};
+use super::{Block, Cell, Document, Finding, Table};
 use crate::document::words::{capital, share};
 use crate::terminal::text::{
     Align, bad, bar, bold, dim, good, indented, left_bar, listed, table, wrapped,
@@ -134,13 +134,8 @@ impl Table {
         let heads = self.heads.iter().skip(1).map(dim);
         let mut rows = vec![std::iter::once(bold(heading)).chain(heads).collect::<Vec<_>>()];
         rows.extend(self.rows.iter().map(|row| row.iter().map(Cell::text).collect()));
-        let is_number = |column: usize| {
-            let mut cells = self.rows.iter().filter_map(|row| row.get(column));
-            cells.any(|cell| matches!(cell, Cell::Number(_)))
-        };
-        let columns = self.rows.iter().map(Row::len).max().unwrap_or(0);
-        let align = |column| if is_number(column) { Align::Right } else { Align::Left };
-        let lines = table(&rows, &(0..columns).map(align).collect::<Vec<_>>());
+        let align = |is_number| if is_number { Align::Right } else { Align::Left };
+        let lines = table(&rows, &self.columns().into_iter().map(align).collect::<Vec<_>>());
         let (head, rest) = lines.split_once('\n').unwrap_or((&lines, ""));
         format!("{}\n{}", head.replacen("  ", "    ", 1), indented(rest, 2))
     }
@@ -174,7 +169,8 @@ fn findings(large: &[Finding], summary: &str, small: &[Finding], top: usize) -> 
     let mut text = String::new();
     for (k, (line, finding)) in table(&rows, &[Align::Right]).lines().zip(&shown).enumerate() {
         text.push_str(&format!("{line}\n"));
-        text.push_str(&numbers(finding, top == usize::MAX));
+        let most = if top == usize::MAX { top } else { MOST_PARAMETERS };
+        text.push_str(&paragraph(&finding.numbers(most)));
         if k < top {
             text.push_str(&evidence(finding, top == usize::MAX));
         }
@@ -186,15 +182,6 @@ fn findings(large: &[Finding], summary: &str, small: &[Finding], top: usize) -> 
         text.push_str(&wrapped(&format!("{}: --all", capital(summary)), WIDTH - 2, 2));
     }
     text
-}
-
-/// What a finding amounts to.
-fn numbers(finding: &Finding, all: bool) -> String {
-    let most = if all { usize::MAX } else { MOST_PARAMETERS };
-    let mut parameters: Vec<String> = finding.parameters.iter().take(most).cloned().collect();
-    let rest = finding.parameters.len() - parameters.len();
-    parameters.extend((rest > 0).then(|| format!("and {rest} more")));
-    paragraph(&parameters.join("; "))
 }
 
 /// What speaks for a finding, and what is not distinguishable from it.

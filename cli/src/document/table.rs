@@ -36,6 +36,18 @@ impl Table {
     }
 }
 
+impl Table {
+    /// How many columns, and which of them are numbers.
+    pub(super) fn columns(&self) -> Vec<bool> {
+        let is_number = |column: usize| {
+            let mut cells = self.rows.iter().filter_map(|row| row.get(column));
+            cells.any(|cell| matches!(cell, Cell::Number(_)))
+        };
+        let count = self.rows.iter().map(Vec::len).chain([self.heads.len()]).max().unwrap_or(0);
+        (0..count).map(is_number).collect()
+    }
+}
+
 impl<T: Into<String>> From<T> for Cell {
     fn from(text: T) -> Cell {
         Cell::Text(text.into())

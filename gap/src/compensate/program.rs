@@ -14,7 +14,7 @@ use stiffarm_kernels::Motion;
 use super::CompensateError;
 use super::reach::{Ended, Search, Target, reach};
 use crate::program::notation;
-use crate::program::{Change, Language, Point, Values};
+use crate::program::{Change, Language, Point, Values, si};
 use crate::whole::{Situation, Whole};
 use configuration::{EDGE, configured};
 
@@ -115,13 +115,12 @@ impl Controlled<'_> {
         let convention = language.convention();
         let (nominal, old) = match &point.values {
             Values::Joints(cells) => {
-                let q: Vec<f64> = cells.iter().map(|cell| cell.si()).collect();
+                let q = si(cells);
                 let flange = self.flange(&q)?;
                 (q, flange)
             }
             Values::Pose(cells) => {
-                let numbers: Vec<f64> = cells.iter().map(|cell| cell.si()).collect();
-                let pose = notation::pose(convention, &numbers).ok_or(Unmoved::Unreached)?;
+                let pose = notation::pose(convention, &si(cells)).ok_or(Unmoved::Unreached)?;
                 let flange = placed.frame * pose * self.tool(placed, &self.nominal).inverse();
                 (self.nominal(placed, &flange, before)?, flange)
             }
@@ -161,9 +160,8 @@ impl Controlled<'_> {
         let (cells, numbers) = match &point.values {
             Values::Joints(cells) => (cells, found.q.clone()),
             Values::Pose(cells) => {
-                let near: Vec<f64> = cells.iter().map(|cell| cell.si()).collect();
                 let pose = placed.frame.inverse() * to;
-                (cells, notation::numbers(convention, &pose, &near))
+                (cells, notation::numbers(convention, &pose, &si(cells)))
             }
         };
         let each = cells.iter().zip(numbers);

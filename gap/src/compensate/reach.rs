@@ -167,14 +167,20 @@ fn finish(task: &steps::Task<'_>, end: steps::Point, search: &Search) -> Reached
     Reached { error: end.error, q: end.q, uncompensated, ended }
 }
 
-/// What the loaded arm misses at the set-points of a rigid one near `q`, of which nothing is wrong.
-fn uncompensated(task: &steps::Task<'_>, q: &[f64], search: &Search) -> Option<Vector6<f64>> {
-    let mut rigid = task.arm().clone();
+/// The same arm where nothing gives way.
+pub fn rigid(arm: &Arm) -> Arm {
+    let mut rigid = arm.clone();
     for joint in &mut rigid.joints {
         (joint.compliance, joint.beam) = (0.0, None);
-        // Where a rigid arm would have to stand is no question of limits.
-        joint.limits = None;
     }
+    rigid
+}
+
+/// What the loaded arm misses at the set-points of a rigid one near `q`, of which nothing is wrong.
+fn uncompensated(task: &steps::Task<'_>, q: &[f64], search: &Search) -> Option<Vector6<f64>> {
+    let mut rigid = rigid(task.arm());
+    // Where a rigid arm would have to stand is no question of limits.
+    rigid.joints.iter_mut().for_each(|joint| joint.limits = None);
     let unloaded = Situation::under(Vector6::zeros());
     let ideal = steps::Task::new(Whole::from(&rigid), &unloaded, task.target, search);
     let end = ideal.settle(q).filter(|end| ideal.reached(end))?;

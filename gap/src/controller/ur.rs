@@ -78,9 +78,7 @@ fn without_beta(arm: &Arm) -> Arm {
         if joint.beta == 0.0 {
             continue;
         }
-        let turn = |axis, angle| UnitQuaternion::from_axis_angle(&axis, angle);
-        let tilt = turn(Vector3::x_axis(), joint.alpha) * turn(Vector3::y_axis(), joint.beta);
-        let m = tilt.to_rotation_matrix();
+        let m = tilt(joint).to_rotation_matrix();
         // Of the two solutions the one whose t is at most a quarter turn.
         let side = if m[(1, 2)] <= 0.0 { 1.0 } else { -1.0 };
         let t = (side * m[(0, 2)]).atan2(-side * m[(1, 2)]);
@@ -94,6 +92,12 @@ fn without_beta(arm: &Arm) -> Arm {
         arm.joints[k + 1].d += h;
     }
     arm
+}
+
+/// By what a row turns the next axis from its own: `Rx(alpha) Ry(beta)`.
+fn tilt(joint: &Joint) -> UnitQuaternion<f64> {
+    let turn = |axis, angle| UnitQuaternion::from_axis_angle(&axis, angle);
+    turn(Vector3::x_axis(), joint.alpha) * turn(Vector3::y_axis(), joint.beta)
 }
 
 /// The list that stands behind a name at the begin of a line.
@@ -122,8 +126,8 @@ pub fn kinematics(real: &Arm, hash: &str) -> Result<String, ControllerError> {
     let mut text = "kinematics:\n".to_owned();
     let mut end = Isometry3::identity();
     for (joint, link) in real.joints.iter().zip(LINKS) {
-        let turn = |axis, angle| UnitQuaternion::from_axis_angle(&axis, angle);
-        let axis = turn(Vector3::z_axis(), joint.theta) * Translation3::new(0.0, 0.0, joint.d);
+        let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), joint.theta);
+        let axis = turn * Translation3::new(0.0, 0.0, joint.d);
         let place: Isometry3<f64> = end * axis;
         let (roll, pitch, yaw) = place.rotation.euler_angles();
         let origin = place.translation.vector;
@@ -133,8 +137,7 @@ pub fn kinematics(real: &Arm, hash: &str) -> Result<String, ControllerError> {
         for (name, value) in ["x", "y", "z", "roll", "pitch", "yaw"].iter().zip(values) {
             text.push_str(&format!("    {name}: {value:?}\n"));
         }
-        let tilt = turn(Vector3::x_axis(), joint.alpha) * turn(Vector3::y_axis(), joint.beta);
-        end = Translation3::new(joint.a, 0.0, 0.0) * tilt;
+        end = Translation3::new(joint.a, 0.0, 0.0) * tilt(joint);
     }
     text.push_str(&format!("  hash: {hash}\n"));
     Ok(text)

@@ -119,6 +119,13 @@ impl<'t> Cursor<'t> {
         Cursor { text: self.text, tokens: &self.tokens[from..self.at], at: 0 }
     }
 
+    /// What stands in `[…]`, or behind a `[` without an end, which is passed; `None` where none begins here.
+    pub(super) fn index(&mut self) -> Option<Cursor<'t>> {
+        let inside = self.mark(b'[').then(|| self.until(b"]"))?;
+        self.mark(b']');
+        Some(inside)
+    }
+
     /// Everything from here to the end, as it stands in the text.
     pub(super) fn rest(&self) -> String {
         let end = self.tokens.last().map_or(self.text.len(), |token| token.span.end);

@@ -66,6 +66,16 @@ impl Cell {
     }
 }
 
+/// Values in SI.
+pub fn si(cells: &[Cell]) -> Vec<f64> {
+    cells.iter().map(Cell::si).collect()
+}
+
+/// The line of a byte, from 1.
+pub fn line(text: &[u8], at: usize) -> usize {
+    1 + text[..at].iter().filter(|byte| **byte == b'\n').count()
+}
+
 /// The text with the changes made; of two that overlap the first.
 pub fn edited(text: &[u8], mut changes: Vec<Change>) -> Vec<u8> {
     changes.sort_by_key(|change| change.span.start);

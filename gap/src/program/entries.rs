@@ -2,7 +2,7 @@
 
 use super::Language;
 use super::cursor::Cursor;
-use super::edit::Cell;
+use super::edit::{Cell, line as line_of};
 use super::lexer::{self, Kind};
 
 /// What is assigned to an element of an array.
@@ -24,17 +24,14 @@ pub fn entries(text: &[u8], array: &str) -> Vec<Entry> {
     let mut found = Vec::new();
     for line in tokens.split(|token| token.kind == Kind::Newline) {
         let mut at = Cursor::new(text, line);
-        if at.word().as_deref() != Some(array) || !at.mark(b'[') {
+        if at.word().as_deref() != Some(array) {
             continue;
         }
-        let index = at.until(b"]").rest();
-        if !(at.mark(b']') && at.mark(b'=')) {
-            continue;
-        }
+        let Some(index) = at.index().filter(|_| at.mark(b'=')) else { continue };
+        let index = index.rest();
         let (shown, start) = (at.rest(), at.span().start);
-        let number = 1 + text[..start].iter().filter(|byte| **byte == b'\n').count();
         let value = at.number(1.0).filter(|_| at.is_at_end());
-        found.push(Entry { index, line: number, text: shown, value });
+        found.push(Entry { index, line: line_of(text, start), text: shown, value });
     }
     found
 }

@@ -7,7 +7,7 @@
 use super::cursor::Cursor;
 use super::edit::Cell;
 use super::lexer::{self, Kind, Token};
-use super::point::{Configuration, Left, Place, Point, Values};
+use super::point::{Configuration, Place, Point, Values};
 use super::{DEGREE, Fault, File, Found, Language, MILLIMETRE, fault};
 
 const POSE: [&str; 6] = ["x", "y", "z", "w", "p", "r"];
@@ -93,10 +93,7 @@ fn point(
     at.mark(b'}');
     at.mark(b';');
     let span = start.start..at.span().start.max(start.end);
-    let mut leave = |because: &str| {
-        let (name, because) = (name.to_owned(), because.to_owned());
-        found.left.push(Left { name, file, span: span.clone(), because });
-    };
+    let mut leave = |because: &str| found.leave(name, file, span.clone(), because);
     let group = (inside.word(), inside.mark(b':'));
     if group != (Some("gp1".to_owned()), true) {
         leave("it is none of motion group 1");

@@ -12,7 +12,7 @@ use std::ops::Range;
 
 use super::cursor::Cursor;
 use super::lexer::{self, Kind};
-use super::point::{Left, Place, Point};
+use super::point::{Place, Point};
 use super::{Fault, File, Found, Language};
 use aggregate::{Aggregate, Value};
 
@@ -125,16 +125,12 @@ impl Reader<'_> {
             };
             let shown = at.shown(token.span.clone());
             let Some(name) = at.word() else { return Ok(false) };
-            let mut index = Cursor::new(at.text, &[]);
-            if at.mark(b'[') {
-                index = at.until(b"]");
-                at.mark(b']');
-            }
+            let index = at.index().filter(|index| !index.is_at_end());
+            let index = index.map_or_else(String::new, |index| index.rest());
             if let Some(kind) = kind {
                 self.types.insert(name.clone(), kind.to_owned());
             }
             if at.mark(b'=') {
-                let index = if index.is_at_end() { String::new() } else { index.rest() };
                 self.value(&shown, &index, at.until(b","))?;
             }
             if !at.mark(b',') {
@@ -190,10 +186,9 @@ impl Reader<'_> {
         }
         Ok(match at.word().as_deref() {
             Some("$nullframe") if at.is_at_end() => Place::none(),
-            Some("base_data" | "tool_data") if at.mark(b'[') => {
-                let index = at.until(b"]").rest();
-                let whole_index = at.mark(b']') && at.is_at_end();
-                Place::Named(if whole_index { index } else { whole })
+            Some("base_data" | "tool_data") => {
+                let index = at.index().filter(|_| at.is_at_end() && whole.ends_with(']'));
+                Place::Named(index.map_or(whole, |index| index.rest()))
             }
             _ => Place::Named(whole),
         })
@@ -226,9 +221,8 @@ impl Reader<'_> {
                     self.add(&shown, &aggregate, Some(rank));
                 }
             } else if let Some(mut name) = inside.word() {
-                if inside.mark(b'[') {
-                    name = format!("{name}[{}]", inside.until(b"]").rest());
-                    inside.mark(b']');
+                if let Some(index) = inside.index() {
+                    name = format!("{name}[{}]", index.rest());
                 }
                 if inside.is_mark(b':') {
                     self.expressions.insert(name);
@@ -271,8 +265,7 @@ impl Reader<'_> {
     }
 
     fn leave(&mut self, name: &str, span: Range<usize>, because: &str) {
-        let (name, because) = (name.to_owned(), because.to_owned());
-        self.found.left.push(Left { name, file: self.file, span, because });
+        self.found.leave(name, self.file, span, because);
     }
 
     /// Leaves every aggregate of a line that would be a point.

@@ -77,6 +77,13 @@ pub(super) fn tokens(text: &[u8], style: &Style) -> Vec<Token> {
     found
 }
 
+/// The same of a language in which the end of a line ends nothing.
+pub(super) fn unbroken(text: &[u8], style: &Style) -> Vec<Token> {
+    let mut found = tokens(text, style);
+    found.retain(|token| token.kind != Kind::Newline);
+    found
+}
+
 fn is_word(byte: u8) -> bool {
     byte.is_ascii_alphanumeric() || byte == b'_'
 }

@@ -21,7 +21,7 @@ use std::ops::Range;
 use nalgebra::Isometry3;
 
 use crate::io::Convention;
-pub use edit::{Cell, Change, edited};
+pub use edit::{Cell, Change, edited, si};
 pub use entries::{Entry, entries};
 use lexer::{Kind, Style};
 use point::Uses;
@@ -220,14 +220,22 @@ impl Program {
         self.points = placed.into_iter().map(|(_, point)| point).collect();
         self.left.sort_by_key(|left| (left.file, left.span.start));
     }
+}
 
+impl File {
     /// Line and column of a byte, from 1; a column is a character, or a byte of what is no UTF-8.
-    pub fn line_and_column(&self, file: usize, at: usize) -> (usize, usize) {
-        let text = &self.files[file].text;
-        let before = &text[..at.min(text.len())];
+    pub fn line_and_column(&self, at: usize) -> (usize, usize) {
+        let before = &self.text[..at.min(self.text.len())];
         let start = before.iter().rposition(|b| *b == b'\n').map_or(0, |end| end + 1);
-        let line = 1 + before.iter().filter(|b| **b == b'\n').count();
-        (line, 1 + String::from_utf8_lossy(&before[start..]).chars().count())
+        let column = 1 + String::from_utf8_lossy(&before[start..]).chars().count();
+        (edit::line(&self.text, before.len()), column)
+    }
+}
+
+impl Found {
+    fn leave(&mut self, name: &str, file: usize, span: Range<usize>, because: &str) {
+        let (name, because) = (name.to_owned(), because.to_owned());
+        self.left.push(Left { name, file, span, because });
     }
 }
 

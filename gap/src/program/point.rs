@@ -5,7 +5,9 @@ use std::ops::Range;
 
 use nalgebra::Isometry3;
 
-use super::edit::Cell;
+use super::edit::{Cell, si};
+use super::notation;
+use crate::io::Convention;
 
 /// Where a frame stands in the robot's base, or a tool on its flange.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,6 +25,11 @@ impl Place {
     /// The robot's base itself, or its flange.
     pub fn none() -> Place {
         Place::Is(Isometry3::identity())
+    }
+
+    /// A pose that is written as numbers, if it is one.
+    pub(super) fn of(convention: Convention, cells: &[Cell]) -> Option<Place> {
+        notation::pose(convention, &si(cells)).map(Place::Is)
     }
 
     /// One of which the program says nothing.

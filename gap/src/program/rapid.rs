@@ -10,9 +10,9 @@ use std::ops::Range;
 
 use super::cursor::Cursor;
 use super::edit::Cell;
-use super::lexer::{self, Kind, Token};
-use super::point::{Configuration, Left, Place, Point, Values};
-use super::{DEGREE, Fault, File, Found, Language, MILLIMETRE, fault, notation};
+use super::lexer::{self, Kind};
+use super::point::{Configuration, Place, Point, Values};
+use super::{DEGREE, Fault, File, Found, Language, MILLIMETRE, fault};
 use crate::io::Convention;
 
 /// What the names of instructions begin with that go to points, and whose last argument is the tool.
@@ -41,8 +41,7 @@ pub(super) fn read(files: &[File], found: &mut Found) -> Result<(), Fault> {
     let mut reader = Reader { found, file: 0, types: HashMap::new() };
     for (file, File { text, .. }) in files.iter().enumerate() {
         reader.file = file;
-        let mut tokens = lexer::tokens(text, &Language::Rapid.style());
-        tokens.retain(|token: &Token| token.kind != Kind::Newline);
+        let tokens = lexer::unbroken(text, &Language::Rapid.style());
         reader.text(Cursor::new(text, &tokens))?;
     }
     found.frames.insert("wobj0".to_owned(), Place::none());
@@ -210,8 +209,7 @@ impl Reader<'_> {
     }
 
     fn leave(&mut self, name: &str, span: Range<usize>, because: &str) {
-        let (name, because) = (name.to_owned(), because.to_owned());
-        self.found.left.push(Left { name, file: self.file, span, because });
+        self.found.leave(name, self.file, span, because);
     }
 
     fn list<'t>(&self, at: &mut Cursor<'t>, levels: usize) -> Result<List<'t>, Fault> {
@@ -262,8 +260,7 @@ impl List<'_> {
     fn frame(&self) -> Option<Place> {
         let [Element::List(place), Element::List(turn)] = &self.elements[..] else { return None };
         let cells = [place.numbers(3, MILLIMETRE)?, turn.numbers(4, 1.0)?].concat();
-        let numbers: Vec<f64> = cells.iter().map(Cell::si).collect();
-        notation::pose(Convention::Quaternion, &numbers).map(Place::Is)
+        Place::of(Convention::Quaternion, &cells)
     }
 
     /// Whether it may be an array: of lists of lists.

@@ -5,7 +5,7 @@
 
 use std::ops::Range;
 
-use super::edit::Cell;
+use super::edit::{Cell, si};
 use super::point::{Place, Point, Values};
 use super::{Fault, File, Found};
 use crate::io::columns::split;
@@ -30,7 +30,7 @@ pub(super) fn read(files: &[File], joints: usize, found: &mut Found) -> Result<(
                 columns.iter().map(cell).collect()
             };
             let (pose, readings) = (read(pose)?, read(readings)?);
-            let near = readings.iter().map(Cell::si).collect::<Vec<f64>>();
+            let near = si(&readings);
             let is_pose = !pose.is_empty();
             let values = if is_pose { Values::Pose(pose) } else { Values::Joints(readings) };
             let mut point = Point::new("row", file, values);

@@ -7,10 +7,10 @@
 use std::collections::HashMap;
 
 use super::cursor::Cursor;
-use super::edit::Cell;
-use super::lexer::{self, Kind, Token};
-use super::point::{DEFAULT, Left, Place, Point, Values};
-use super::{File, Found, Language, notation};
+use super::edit::{Cell, si};
+use super::lexer::{self, Token};
+use super::point::{Place, Point, Values};
+use super::{File, Found, Language};
 use crate::io::Convention;
 
 const MOTIONS: [&str; 5] = ["movej", "movel", "movep", "movec", "servoj"];
@@ -40,17 +40,16 @@ struct Reader<'f> {
 pub(super) fn read(files: &[File], found: &mut Found) {
     let unsaid = Place::unsaid();
     let mut reader = Reader { found, file: 0, tool: unsaid, variables: HashMap::new(), calls: 0 };
-    for (file, File { text, .. }) in files.iter().enumerate() {
+    let tokens = |file: &File| lexer::unbroken(&file.text, &Language::UrScript.style());
+    let tokens: Vec<Vec<Token>> = files.iter().map(tokens).collect();
+    let texts = || files.iter().zip(&tokens).enumerate();
+    for (file, (File { text, .. }, tokens)) in texts() {
         reader.file = file;
-        let mut tokens = lexer::tokens(text, &Language::UrScript.style());
-        tokens.retain(|token: &Token| token.kind != Kind::Newline);
-        reader.assignments(Cursor::new(text, &tokens));
+        reader.assignments(Cursor::new(text, tokens));
     }
-    for (file, File { text, .. }) in files.iter().enumerate() {
+    for (file, (File { text, .. }, tokens)) in texts() {
         reader.file = file;
-        let mut tokens = lexer::tokens(text, &Language::UrScript.style());
-        tokens.retain(|token: &Token| token.kind != Kind::Newline);
-        reader.motions(Cursor::new(text, &tokens));
+        reader.motions(Cursor::new(text, tokens));
     }
     for (name, points) in reader.variables {
         for point in points {
@@ -197,7 +196,7 @@ impl Reader<'_> {
             at = named;
         }
         let of = |values: &Values| match values {
-            Values::Joints(cells) => Some(cells.iter().map(Cell::si).collect()),
+            Values::Joints(cells) => Some(si(cells)),
             Values::Pose(_) => None,
         };
         if let Some(Literal::Point(values)) = literal(&mut at.clone()) {
@@ -208,8 +207,7 @@ impl Reader<'_> {
     }
 
     fn leave(&mut self, name: &str, span: core::ops::Range<usize>, because: &str) {
-        let (name, because) = (name.to_owned(), because.to_owned());
-        self.found.left.push(Left { name, file: self.file, span, because });
+        self.found.leave(name, self.file, span, because);
     }
 }
 
@@ -243,8 +241,7 @@ fn literal(at: &mut Cursor<'_>) -> Option<Literal> {
 }
 
 fn pose(cells: &[Cell]) -> Option<Place> {
-    let numbers: Vec<f64> = cells.iter().map(Cell::si).collect();
-    notation::pose(Convention::RotationVector, &numbers).map(Place::Is)
+    Place::of(Convention::RotationVector, cells)
 }
 
 /// A frame or tool, by its value or its name.
@@ -252,7 +249,7 @@ fn place(at: &mut Cursor<'_>) -> Place {
     let whole = at.rest();
     match literal(&mut at.clone()) {
         Some(Literal::Point(Values::Pose(cells))) => pose(&cells).unwrap_or(Place::Named(whole)),
-        _ if whole.is_empty() => Place::Named(DEFAULT.to_owned()),
+        _ if whole.is_empty() => Place::unsaid(),
         _ => Place::Named(whole),
     }
 }

@@ -116,7 +116,7 @@ impl Block {
 
 impl Table {
     fn print(&self, sheet: &mut Sheet) {
-        let columns = self.rows.iter().map(Vec::len).chain([self.heads.len()]).max().unwrap_or(0);
+        let is_number = self.columns();
         let size = sheet.size();
         let head = |k: usize| self.heads.get(k).map_or("", String::as_str);
         let wide = |k: usize| {
@@ -126,11 +126,7 @@ impl Table {
             });
             cells.fold(letters::width(head(k), Font::Plain) * size, f32::max)
         };
-        let is_number = |k: usize| {
-            let mut cells = self.rows.iter().filter_map(|row| row.get(k));
-            cells.any(|cell| matches!(cell, Cell::Number(_)))
-        };
-        let widths: Vec<f32> = (0..columns).map(wide).collect();
+        let widths: Vec<f32> = (0..is_number.len()).map(wide).collect();
         let starts: Vec<f32> = widths
             .iter()
             .scan(0.0, |at, width| {
@@ -139,12 +135,12 @@ impl Table {
                 Some(start)
             })
             .collect();
-        let put = |sheet: &mut Sheet, k: usize, text: &str| match is_number(k) {
+        let put = |sheet: &mut Sheet, k: usize, text: &str| match is_number[k] {
             true => sheet.right(text, starts[k] + widths[k]),
             false => sheet.left(text, starts[k]),
         };
         if self.heads.iter().any(|head| !head.is_empty()) {
-            (0..columns).for_each(|k| put(sheet, k, head(k)));
+            (0..is_number.len()).for_each(|k| put(sheet, k, head(k)));
             sheet.next();
         }
         for row in &self.rows {
@@ -197,12 +193,7 @@ fn findings(sheet: &mut Sheet, large: &[Finding], summary: &str, small: &[Findin
         sheet.left(&finding.less, bar + BAR + GAP * size);
         sheet.next();
         if k < most {
-            let mut told: Vec<&str> =
-                finding.parameters.iter().take(PARAMETERS).map(String::as_str).collect();
-            let rest = finding.parameters.len() - told.len();
-            let more = format!("and {rest} more");
-            told.extend((rest > 0).then_some(more.as_str()));
-            sheet.paragraph(&told.join("; "), 2.0);
+            sheet.paragraph(&finding.numbers(PARAMETERS), 2.0);
             if !finding.same.is_empty() {
                 let same = finding.same.join(", ");
                 sheet.paragraph(&format!("not distinguishable from: {same}"), 2.0);

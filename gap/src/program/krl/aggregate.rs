@@ -6,7 +6,7 @@ use std::ops::Range;
 use super::super::cursor::Cursor;
 use super::super::edit::Cell;
 use super::super::point::{Configuration, Place, Point, Values};
-use super::super::{DEGREE, Fault, MILLIMETRE, fault, notation};
+use super::super::{DEGREE, Fault, MILLIMETRE, fault};
 use crate::io::Convention;
 
 const POSE: [&str; 6] = ["x", "y", "z", "a", "b", "c"];
@@ -40,10 +40,7 @@ impl Aggregate {
             let Some(name) = at.word() else {
                 return Err(fault(file, at, "the name of a component", help));
             };
-            if at.mark(b'[') {
-                at.until(b"]");
-                at.mark(b']');
-            }
+            at.index();
             let unit = if matches!(name.as_str(), "x" | "y" | "z") { MILLIMETRE } else { DEGREE };
             let mut value = at.until(b",}");
             if value.is_at_end() {
@@ -84,8 +81,7 @@ impl Aggregate {
 
     /// The place of a frame, if it is one.
     pub(super) fn place(&self) -> Option<Place> {
-        let numbers: Vec<f64> = self.numbers(&POSE)?.iter().map(Cell::si).collect();
-        notation::pose(Convention::ABC, &numbers).map(Place::Is)
+        Place::of(Convention::ABC, &self.numbers(&POSE)?)
     }
 
     /// The components of these names, if all are numbers.
