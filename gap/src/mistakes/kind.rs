@@ -2,6 +2,7 @@
 //! exactly. But for an entry that is off by any amount there is no number in it that would have to be fitted.
 
 use core::f64::consts::PI;
+use core::ops::Range;
 
 use nalgebra::{Vector3, Vector6};
 use stiffarm_kernels::generic::{Arm, Convention, Joint};
@@ -67,8 +68,8 @@ pub(super) enum Mistake {
     Geared { joint: usize, of: usize, ratio: f64 },
     /// Readings stand so many rows behind the positions that belong to them.
     Late { rows: i32 },
-    /// A joint's reading does not change any more from a row on, though the joint moves.
-    Stuck { joint: usize, from: usize },
+    /// A joint's reading does not change from a row on until another, which is not one of them, though the joint moves.
+    Stuck { joint: usize, from: usize, until: usize },
     /// Coordinates have another unit: one, or all of them.
     Coordinate { axis: Option<usize>, factor: f64 },
     /// Two coordinates stand in each other's columns; those of the rotation too.
@@ -109,14 +110,39 @@ impl Mistake {
         matches!(self, Mistake::Load { .. } | Mistake::Moment { .. })
     }
 
+    /// The rows in which a joint's reading is not known, and the joint.
+    pub(super) fn stuck(self) -> Option<(usize, Range<usize>)> {
+        match self {
+            Mistake::Stuck { joint, from, until } => Some((joint, from..until)),
+            _ => None,
+        }
+    }
+
     /// Whether a joint's reading is not known.
     pub(super) fn is_stuck(self) -> bool {
-        matches!(self, Mistake::Stuck { .. })
+        self.stuck().is_some()
     }
 
     /// Whether a change of the robot file mends it; else the measurement file is to be changed.
     pub(super) fn is_of_robot(self) -> bool {
         self.order() < 4
+    }
+
+    /// The entry of the table that it changes, and nothing else.
+    fn entry(self) -> Option<(usize, Entry)> {
+        match self {
+            Mistake::Entry { row, entry, .. } | Mistake::Off { row, entry, .. } => {
+                Some((row, entry))
+            }
+            Mistake::TwistSign { row } | Mistake::Twist { row, .. } => Some((row, Entry::Alpha)),
+            Mistake::Zero { joint, .. } => Some((joint, Entry::Theta)),
+            _ => None,
+        }
+    }
+
+    /// Whether both may be made: an entry is wrong once.
+    pub(super) fn may_join(self, other: Mistake) -> bool {
+        self != other && (self.entry().is_none() || self.entry() != other.entry())
     }
 
     /// What is changed first where there are two: the table before its entries, columns before what they say.

@@ -1,5 +1,6 @@
 //! All mistakes that an arm and its data may have, so that no two of them come to the same.
 
+use core::cmp::Reverse;
 use core::f64::consts::PI;
 
 use stiffarm_kernels::Motion;
@@ -32,6 +33,9 @@ const ROWS: [i32; 6] = [1, -1, 2, -2, 3, -3];
 
 /// Fewer rows with one reading are a pose that was measured again, or a sweep of another joint.
 const STUCK_ROWS: usize = 8;
+
+/// Of a joint's stretches with one reading so many are tried, the longest first: a plan of sweeps has one a joint.
+const STUCK_RUNS: usize = 8;
 
 impl Mistake {
     /// All that this arm and this data may have, so that no two of them come to the same; the robot may be
@@ -92,10 +96,16 @@ fn of_readings(arm: &Arm, data: &Measurements, joint: usize, all: &mut Vec<Mista
         all.extend([1.0, -1.0].map(|ratio| Mistake::Coupling { joint, of, ratio }));
         all.extend((joint < of).then_some(Mistake::Swapped { joints: [joint, of] }));
     }
-    let last = data.rows.last().map_or(0.0, |row| row.q[joint]);
-    let from = data.rows.iter().rposition(|row| row.q[joint] != last).map_or(0, |row| row + 1);
-    let moves = data.rows[from..].windows(2).filter(|pair| pair[0].q != pair[1].q).count();
-    all.extend((moves >= STUCK_ROWS).then_some(Mistake::Stuck { joint, from }));
+    let mut runs = Vec::new();
+    let mut from = 0;
+    for run in data.rows.chunk_by(|one, next| one.q[joint] == next.q[joint]) {
+        let moves = run.windows(2).filter(|pair| pair[0].q != pair[1].q).count();
+        let until = from + run.len();
+        runs.extend((moves >= STUCK_ROWS).then_some(Mistake::Stuck { joint, from, until }));
+        from = until;
+    }
+    runs.sort_by_key(|run| run.stuck().map(|(_, rows)| Reverse(rows.len())));
+    all.extend(runs.into_iter().take(STUCK_RUNS));
 }
 
 fn of_positions(data: &Measurements, all: &mut Vec<Mistake>) {

@@ -87,20 +87,18 @@ pub(crate) fn find(
     let names: Vec<&str> = others.iter().map(|(robot, _)| robot.name.as_str()).collect();
     match search.run(&nothing, data.sessions().any(is_stream)) {
         Found::Nothing => None,
-        Found::Unexplained => Some((told(&nothing, None, &[], &names), None)),
+        Found::Unexplained => Some((told(&nothing, None, &[], &names, data.rows.len()), None)),
         Found::Mistakes(best, same) => {
             let best = search.polished(best);
             let mended = Mended {
                 arm: search.arm_without(&best.mistakes),
                 data: search.rows.mended(&best.mistakes),
                 known: known(&best.mistakes, &options.known, &options.catalogue),
-                is_whole: !best.mistakes.iter().any(
-                    |m| matches!(m, Mistake::Stuck { from, .. } if *from < data.rows.len() / 2),
-                ),
+                is_whole: search.rows.are_enough(&best.mistakes),
                 family: others.iter().map(|(robot, _)| (*robot).clone()).collect(),
                 mistakes: best.mistakes.clone(),
             };
-            Some((told(&nothing, Some(&best), &same, &names), Some(mended)))
+            Some((told(&nothing, Some(&best), &same, &names, data.rows.len()), Some(mended)))
         }
     }
 }
@@ -116,11 +114,17 @@ fn extent(data: &Measurements) -> f64 {
     middle([0, 1, 2].map(spread)).unwrap_or_default().max(1e-3)
 }
 
-fn told(nothing: &Tried, best: Option<&Tried>, same: &[Tried], family: &[&str]) -> Mistaken {
+fn told(
+    nothing: &Tried,
+    best: Option<&Tried>,
+    same: &[Tried],
+    family: &[&str],
+    rows: usize,
+) -> Mistaken {
     let wrong = |mistake: &Mistake| Wrong {
         kind: mistake.kind().into(),
         place: mistake.place(),
-        sentence: mistake.sentence(family),
+        sentence: mistake.sentence(family, rows),
         mending: mistake.mending(),
         in_robot_file: mistake.is_of_robot(),
     };
@@ -165,8 +169,8 @@ fn known(mistakes: &[Mistake], known: &[Known], catalogue: &Catalogue) -> Vec<Kn
 }
 
 impl Mended {
-    /// Another file of the arm, its readings mended as those were; `None` if nothing is wrong with them. From where
-    /// on a reading is stuck says nothing of another file.
+    /// Another file of the arm, its readings mended as those were; `None` if nothing is wrong with them. Where a
+    /// reading is stuck says nothing of another file.
     pub fn readings(&self, other: &Measurements) -> Option<Measurements> {
         let again: Vec<Mistake> = self
             .mistakes

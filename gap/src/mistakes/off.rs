@@ -90,7 +90,9 @@ impl Search<'_> {
             });
             each.min_by(|a, b| a.0.total_cmp(&b.0)).filter(|(left, _)| *left < most)
         };
-        self.refined(self.amounts().par_iter().filter_map(best_of).collect(), BEST)
+        let amounts = self.amounts().into_par_iter();
+        let new = amounts.filter(|off| others.iter().all(|other| other.may_join(off[0])));
+        self.refined(new.filter_map(|off| best_of(&off)).collect(), BEST)
     }
 
     /// The best pairs of a joint's zero and anything else, another joint's zero among them.
@@ -105,7 +107,7 @@ impl Search<'_> {
         let best_of = |other: &Mistake| {
             let is_new = |zero: &&Mistake| match (zero, other) {
                 (Mistake::Off { row: a, .. }, Mistake::Off { row: b, .. }) => a > b,
-                _ => true,
+                _ => other.may_join(**zero),
             };
             let each = zeros.iter().filter(is_new).map(|zero| {
                 let pair = vec![*other, *zero];
@@ -127,7 +129,7 @@ impl Search<'_> {
         let (left, more) = fit.tightened(FAST).refined();
         let numbers = 2.0 * self.arm.dof() as f64;
         let measured = self.rows.data.kind.components().iter().filter(|is| **is).count() as f64;
-        let chance = MORE * numbers / (measured * left.rows);
+        let chance = MORE * numbers / (measured * left.told * left.rows);
         if left.size.powi(2) <= tried.left.size.powi(2) * (1.0 + chance) {
             put(&mut tried.mistakes, &more);
             tried.left = left;

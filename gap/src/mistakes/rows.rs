@@ -89,19 +89,24 @@ impl<'a> Rows<'a> {
         (self.session_of.get(at)? == &self.session_of[row]).then_some(at)
     }
 
+    /// Whether a half of the rows, or more, stand where those with a reading that is stuck are left out.
+    pub(super) fn are_enough(&self, mistakes: &[Mistake]) -> bool {
+        let stuck = mistakes.iter().filter_map(|mistake| mistake.stuck());
+        stuck.map(|(_, rows)| 2 * rows.len()).sum::<usize>() <= self.data.rows.len()
+    }
+
     /// The measurements without the mistakes; rows that have no reading then are left out.
     pub(super) fn mended(&self, mistakes: &[Mistake]) -> Measurements {
         let mut data = self.data.clone();
         let of_data: Vec<Mistake> =
             mistakes.iter().filter(|mistake| !mistake.is_of_robot()).copied().collect();
-        let half = self.data.rows.len() / 2;
-        let stands = |row: usize| {
-            let is_stuck = |mistake: &Mistake| matches!(mistake, Mistake::Stuck { from, .. } if row >= *from && *from >= half);
-            !of_data.iter().any(is_stuck)
+        let is_stuck = |row: usize| {
+            of_data.iter().filter_map(|m| m.stuck()).any(|(_, rows)| rows.contains(&row))
         };
+        let enough = self.are_enough(&of_data);
         let rows = std::mem::take(&mut data.rows).into_iter().enumerate();
         data.rows = rows
-            .filter(|(number, _)| stands(*number))
+            .filter(|(number, _)| !enough || !is_stuck(*number))
             .filter_map(|(number, row)| {
                 let at = self.with_reading_of(number, &of_data)?;
                 let hung = row.payload.as_ref().map_or_else(Vector6::zeros, |hung| hung.weight);

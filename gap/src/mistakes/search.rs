@@ -148,7 +148,7 @@ impl Search<'_> {
     fn score(&self, tried: &Tried, floor: f64) -> f64 {
         let rarity: f64 = tried.mistakes.iter().map(|mistake| mistake.rarity()).sum();
         let turned = if self.base_is_known { tried.left.turned } else { 0.0 };
-        -tried.left.rows.min(MOST_ROWS) * tried.left.size.max(floor).ln()
+        -tried.left.told * tried.left.rows.min(MOST_ROWS) * tried.left.size.max(floor).ln()
             - 0.5 * tried.left.prior_penalty
             - rarity
             - turned
@@ -192,7 +192,7 @@ impl Search<'_> {
         let before = framed(others.to_vec());
         let is_new = |mistake: &&Mistake| {
             let seen = || framed([others, &[**mistake]].concat());
-            !others.contains(mistake)
+            others.iter().all(|other| other.may_join(**mistake))
                 && (mistake.is_of_load() || (seen() / before - 1.0).abs() > UNSEEN)
         };
         let each = self.all.par_iter().filter(is_new);
@@ -210,7 +210,8 @@ impl Search<'_> {
                 let size = self.framed(pair.clone(), &few);
                 size.is_finite().then_some((size, pair))
             };
-            (first + 1..all.len()).filter_map(pair).collect::<Vec<_>>()
+            let joined = (first + 1..all.len()).filter(|k| all[first].may_join(all[*k]));
+            joined.filter_map(pair).collect::<Vec<_>>()
         };
         let pairs = (0..all.len()).into_par_iter().flat_map_iter(of_first).collect();
         self.refined(pairs, BEST_PAIRS)

@@ -57,8 +57,8 @@ impl Mistake {
         }
     }
 
-    /// What is wrong; `family` are the names of the other robots.
-    pub(super) fn sentence(self, family: &[&str]) -> String {
+    /// What is wrong in a file of `count` rows; `family` are the names of the other robots.
+    pub(super) fn sentence(self, family: &[&str], count: usize) -> String {
         match self {
             Mistake::Other(k) => format!("the robot is the built-in {}", family[k]),
             Mistake::Convention => {
@@ -120,13 +120,14 @@ impl Mistake {
                 if rows.abs() == 1 { "" } else { "s" },
                 if rows > 0 { "behind" } else { "ahead of" }
             ),
-            Mistake::Stuck { joint, from: 0 } => {
+            Mistake::Stuck { joint, from: 0, until } if until == count => {
                 format!("the reading of joint {} is stuck: the joint moves, and its column never changes", joint + 1)
             }
-            Mistake::Stuck { joint, from } => format!(
-                "the reading of joint {} is stuck from measurement {} on: the joint moves, and its column does not change",
+            Mistake::Stuck { joint, from, until } => format!(
+                "the reading of joint {} is stuck from measurement {} {}: the joint moves, and its column does not change",
                 joint + 1,
-                from + 1
+                from + 1,
+                if until == count { "on".into() } else { format!("to {until}") }
             ),
             Mistake::Coordinate { axis: Some(axis), factor } => {
                 format!("the measured {} is {}", AXES[axis], length(factor))

@@ -25,8 +25,7 @@ impl Campaign<'_> {
             None => self.explained(),
             Some(wrong) if wrong.mistakes.is_empty() => self.no_arms(wrong),
             Some(wrong) => {
-                let it = if wrong.mistakes.len() == 1 { "it" } else { "them" };
-                format!("{} Without {it}: {}", self.mistaken(wrong), self.explained())
+                format!("{} Besides: {}", self.mistaken(wrong), self.explained())
             }
         }
     }

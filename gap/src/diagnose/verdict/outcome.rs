@@ -7,6 +7,7 @@ use crate::diagnose::data::{Folds, Problem};
 use crate::diagnose::fit::{Fit, Model, block};
 use crate::diagnose::options::DiagnoseError;
 use crate::diagnose::search::{Explained, Search};
+use crate::effects::At;
 use crate::infer::{Basis, Observations, Products, RANK, ordered};
 
 /// The effects of one finding: all forms of one effect at one place are one.
@@ -162,12 +163,26 @@ impl<'h> Held<'h> {
     }
 
     /// The groups in the order in which they shrink the held-out gap most, and what is left before the
-    /// first and after each, its squares by `weights`.
+    /// first and after each, its squares by `weights`. Beside nothing that holds it to what makers tolerate, the whole
+    /// table would take up a length or zero that is off by far more: it comes after those.
     pub(crate) fn ordered(&self, groups: &[Group], weights: &Vector6<f64>) -> Shrinking {
-        let with =
-            |chosen: &[usize]| self.values(&chosen.iter().map(|k| &groups[*k]).collect::<Vec<_>>());
-        let each = ordered(groups.len(), with, |values| self.squares(values));
-        let (order, after): (Vec<usize>, Vec<DMatrix<f64>>) = each.into_iter().unzip();
+        let effect = |k: usize| self.fit.model.found[groups[k][0]].effect;
+        let is_of_table = |k: usize| {
+            effect(k).is_geometry() && matches!(effect(k).facts().at, At::Joints | At::Links)
+        };
+        let with = |chosen: &[usize]| {
+            let is_last = |k: usize| chosen.contains(&k) || !is_of_table(k);
+            let is_early = chosen.last().is_some_and(|k| effect(*k).is_tolerated())
+                && !(0..groups.len()).all(is_last);
+            (is_early, self.values(&chosen.iter().map(|k| &groups[*k]).collect::<Vec<_>>()))
+        };
+        let size = |(is_early, values): &(bool, DMatrix<f64>)| match is_early {
+            true => f64::INFINITY,
+            false => self.squares(values),
+        };
+        let each = ordered(groups.len(), with, size);
+        let (order, after): (Vec<usize>, Vec<DMatrix<f64>>) =
+            each.into_iter().map(|(k, (_, values))| (k, values)).unzip();
         let values: Vec<_> = std::iter::once(self.values(&[])).chain(after).collect();
         let done = order.into_iter().map(|k| groups[k].clone()).collect();
         self.shrinking(done, &values, weights)

@@ -59,8 +59,10 @@ pub(super) struct Left {
     /// Root mean square of all rows, positions (m) and rotations (rad).
     pub position: f64,
     pub rotation: f64,
-    /// Rows that were fitted, less those whose joint was free.
+    /// Rows that were fitted.
     pub rows: f64,
+    /// Part of what they say that is left beside joints whose reading is not known.
+    pub told: f64,
     /// How far the base turned from where the file has it, rad.
     pub turned: f64,
 }
@@ -141,10 +143,8 @@ impl Fit {
         let mut is_loaded = has_mass && down != Vector3::zeros();
         for &number in chosen {
             let Some(told) = all.told(number, mistakes) else { continue };
-            let free = mistakes.iter().find_map(|mistake| match mistake {
-                Mistake::Stuck { joint, from } => (number >= *from).then_some(*joint),
-                _ => None,
-            });
+            let stuck = mistakes.iter().filter_map(|mistake| mistake.stuck());
+            let free = stuck.into_iter().find(|(_, rows)| rows.contains(&number)).map(|(j, _)| j);
             let measured = told.measured;
             if !told.q.iter().chain(&measured).chain(&told.wrench).all(|x| x.abs() < 1e9) {
                 return None;
@@ -333,7 +333,8 @@ impl Fit {
             prior_penalty: self.prior_penalty(),
             position: of(|gap| gap.0.norm()),
             rotation: of(|gap| gap.1.norm()),
-            rows: self.rows.len() as f64 - free / part,
+            rows: self.rows.len() as f64,
+            told: 1.0 - free / (part * self.rows.len() as f64),
             turned,
         }
     }
