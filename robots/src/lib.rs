@@ -99,6 +99,12 @@ numeric {
     ur5 = "arms/ur5.toml",
     /// Universal Robots UR10.
     ur10 = "arms/ur10.toml",
+    /// Universal Robots UR3e.
+    ur3e = "arms/ur3e.toml",
+    /// Universal Robots UR5e.
+    ur5e = "arms/ur5e.toml",
+    /// Universal Robots UR10e.
+    ur10e = "arms/ur10e.toml",
     /// KUKA LBR iiwa 14 R820.
     iiwa14 = "arms/iiwa14.toml",
     /// Franka Emika Panda.

