@@ -1,6 +1,6 @@
 //! A campaign that was diagnosed, and everything that is made of it.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use serde::Serialize;
 use sha2::{Digest, Sha256};
@@ -14,6 +14,7 @@ use stiffarm_gap::{Diagnosis, Measurements, Options, diagnose_with};
 use stiffarm_kernels::generic::Arm;
 
 use super::corrected::{Corrections, commented, made_from};
+use super::log::Part;
 use super::{Accepted, Check, Compared, Found, Hashes, Motion, Provenance, Settings, in_words};
 use crate::document::campaign::{Campaign as Reported, Fitted};
 use crate::document::{Document, Embedded};
@@ -69,7 +70,7 @@ impl Campaign {
     pub(super) fn new(
         settings: &Settings,
         source: Source,
-        files: Vec<(PathBuf, Vec<u8>)>,
+        files: Vec<Part>,
         springs: &[Spring],
         catalogue: Catalogue,
         host: &Host,
@@ -80,16 +81,15 @@ impl Campaign {
         let options = settings.options(&source, &arm, springs, catalogue, host)?;
         let layout = data::layout_beside(settings.bench.as_deref(), &source, host)?;
         let (mut data, mut hash) = (None::<Measurements>, Sha256::new());
-        for (path, bytes) in &files {
-            let next = data::read_bytes(path, bytes, &layout, host)?;
-            hash.update(bytes);
+        for file in &files {
+            let next = file.measurements(&layout, &mut hash, host)?;
             data = Some(match data {
                 Some(data) => data.and(next).map_err(|error| data::refusal(&[], &error))?,
                 None => next,
             });
         }
         let read = data.zip(files.first());
-        let (data, (first, _)) =
+        let (data, first) =
             read.ok_or_else(|| Failure::new("found no measurements, expected a file"))?;
         let doubts = data::doubted(&arm, &data, &options.nuisances, host);
         let other =
@@ -112,7 +112,7 @@ impl Campaign {
             (arm, data) = (mended.arm, mended.data);
         }
         let found = &diagnosed.diagnosis;
-        let made = Provenance::of(first, hash, &source.text, host)?;
+        let made = Provenance::of(&first.path, hash, &source.text, host)?;
         let compared = settings.compare.as_ref();
         let compared = compared.map(|last| Compared::with(last, found, &made.hashes, host));
         let compared = compared.transpose()?;

@@ -1,8 +1,6 @@
 //! A campaign and a log of one arm, diagnosed together: each by itself, and the joints' springs, which
 //! both see, by both.
 
-use std::path::PathBuf;
-
 use serde::Serialize;
 use stiffarm_codegen::robot::Robot;
 use stiffarm_gap::log::Model;
@@ -88,7 +86,7 @@ impl Together {
     pub(super) fn new(
         [of_campaign, of_log]: &[Settings; 2],
         source: Source,
-        files: Vec<(PathBuf, Vec<u8>)>,
+        files: Vec<Part>,
         parts: Vec<Part>,
         catalogues: Catalogues,
         host: &Host,

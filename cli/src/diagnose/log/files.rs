@@ -1,27 +1,32 @@
 //! Which of the files are a joint log.
 
+use std::fs::File;
+use std::io::{self, BufRead, BufReader};
 use std::path::{Path, PathBuf};
 
+use sha2::{Digest, Sha256};
 use stiffarm_gap::log::{Log, Names, Opened};
+use stiffarm_gap::measurement::{Layout, Measurements};
 use stiffarm_kernels::Motion;
 
 use super::super::Settings;
 use crate::host::Host;
+use crate::input::data;
 use crate::terminal::failure::Failure;
 
 /// What the files are.
 pub enum Files {
     /// A joint log, file by file.
     Log(Vec<Part>),
-    /// Measurement files, and their bytes.
-    Measurements(Vec<(PathBuf, Vec<u8>)>),
+    /// Measurement files.
+    Measurements(Vec<Part>),
     /// Measurement files and the log of the same arm.
-    Both(Vec<(PathBuf, Vec<u8>)>, Vec<Part>),
+    Both(Vec<Part>, Vec<Part>),
 }
 
-/// A file of a log.
+/// A file of a log or of measurements.
 pub struct Part {
-    path: PathBuf,
+    pub path: PathBuf,
     opened: Opened,
 }
 
@@ -34,12 +39,37 @@ impl Part {
         Ok(Part { opened, path })
     }
 
-    /// All of it.
-    fn bytes(&self, host: &Host) -> Result<Vec<u8>, Failure> {
-        match self.path.is_file() {
-            true => host.read(&self.path),
-            false => Ok(self.opened.head().to_vec()),
+    /// The measurements in it; its bytes go into `hash`. A file on disk is gone through and not held.
+    ///
+    /// # Errors
+    /// [`Failure`]: it cannot be read, or its mistakes.
+    pub fn measurements(
+        &self,
+        layout: &Layout,
+        hash: &mut Sha256,
+        host: &Host,
+    ) -> Result<Measurements, Failure> {
+        if host.is_on_disk(&self.path) {
+            let data = data::read(&self.path, layout, host)?;
+            hashed(&self.path, hash).map_err(|error| Failure::io("read", &self.path, &error))?;
+            return Ok(data);
         }
+        let bytes = if self.path.is_file() { &host.read(&self.path)? } else { self.opened.head() };
+        hash.update(bytes);
+        data::read_bytes(&self.path, bytes, layout, host)
+    }
+}
+
+fn hashed(path: &Path, hash: &mut Sha256) -> io::Result<()> {
+    let mut file = BufReader::with_capacity(1 << 16, File::open(path)?);
+    loop {
+        let part = file.fill_buf()?;
+        if part.is_empty() {
+            return Ok(());
+        }
+        hash.update(part);
+        let count = part.len();
+        file.consume(count);
     }
 }
 
@@ -84,13 +114,10 @@ pub fn files(data: &[PathBuf], settings: &Settings, host: &Host) -> Result<Files
     let parts = parts(data, host)?;
     let is_log = |part: &Part| settings.map.is_some() || part.opened.is_log();
     let (of_log, others): (Vec<Part>, Vec<Part>) = parts.into_iter().partition(is_log);
-    let measured = |parts: Vec<Part>| -> Result<Vec<(PathBuf, Vec<u8>)>, Failure> {
-        parts.iter().map(|part| Ok((part.path.clone(), part.bytes(host)?))).collect()
-    };
     if !of_log.is_empty() {
         return Ok(match others.is_empty() {
             true => Files::Log(of_log),
-            false => Files::Both(measured(others)?, of_log),
+            false => Files::Both(others, of_log),
         });
     }
     let refused = |what: String, help| {
@@ -102,7 +129,7 @@ pub fn files(data: &[PathBuf], settings: &Settings, host: &Host) -> Result<Files
             "a log has t, q1 …, and tau1 …, i1 … or q_cmd1 …; --map says how others call them";
         return refused(format!("{option} is for joint logs"), help);
     }
-    measured(others).map(Files::Measurements)
+    Ok(Files::Measurements(others))
 }
 
 /// Whether a file is a log by its columns, or a folder of one.
