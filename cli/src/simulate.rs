@@ -28,7 +28,7 @@ const EXAMPLES: &str = "\
 Examples:
   stiffarm simulate ur5 --effect 'backlash@joint 2=0.3 mrad' --csv run.csv
   stiffarm simulate arm.toml --effect 'joint_compliance@joint 2=1.5e-7 rad/(N·m)' \\
-      --effect 'tool_frame:x=1mm,rz=0.5mrad' --design force --payload 500N --csv -
+      --effect 'tool_frame:x=1mm,rz=0.5mrad' --design force --payload 500N
   stiffarm simulate arm.toml run1.csv --effect 'slip@tool:after=40,x=0.3mm' \\
       --withhold --csv blind.csv
   stiffarm simulate panda --log log.csv --effect 'presliding@joint 4:torque=0.5,distance=0.01'
@@ -64,9 +64,9 @@ pub struct Args {
     /// Leave out of the comments what the effects are
     #[arg(long)]
     withhold: bool,
-    /// Where the measurement file goes (`-`: to standard output)
-    #[arg(long, value_name = "OUT", required_unless_present = "log", conflicts_with = "log")]
-    csv: Option<Target>,
+    /// Where the measurement file goes
+    #[arg(long, value_name = "OUT", default_value = "-", conflicts_with = "log")]
+    csv: Target,
     /// Move the arm, and write a joint log there (`-`: to standard output)
     #[arg(
         long,
@@ -178,9 +178,7 @@ pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
         plant = plant.with_first_order_sim();
     }
     let measured = plant.seated(&plant.measure(&design, noise, seed)?)?;
-    if let Some(target) = &args.csv {
-        host.write(target, &csv(&arm, &measured, &args.comments(&design, noise, &truths, &arm)))?;
-    }
+    host.write(&args.csv, &csv(&arm, &measured, &args.comments(&design, noise, &truths, &arm)))?;
     Ok(Verdict::Good)
 }
 

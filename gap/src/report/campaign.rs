@@ -84,7 +84,10 @@ pub struct Diagnosis {
 impl Diagnosis {
     /// What the gap before is that of.
     pub fn before_is(&self) -> &'static str {
+        let is_mended = self.mistaken.as_ref().is_some_and(|wrong| !wrong.mistakes.is_empty());
         match (self.nuisances.is_empty(), self.geometry_along) {
+            (true, false) if is_mended => "mistakes mended",
+            (false, false) if is_mended => "mistakes mended, unknown frames fitted",
             (true, false) => "robot file as it is",
             (false, false) => "with unknown frames fitted",
             (true, true) => "with geometry fitted",
