@@ -54,7 +54,7 @@ pub const AT_REST: [&dyn AtRest; 33] = [
 ];
 
 /// How they act in motion, in that order.
-pub static IN_MOTION: [&dyn InMotion; 25] = [
+pub static IN_MOTION: [&dyn InMotion; 26] = [
     &CoulombFriction,
     &ViscousFriction,
     &FrictionCurve,
@@ -69,6 +69,7 @@ pub static IN_MOTION: [&dyn InMotion; 25] = [
     &LinkInertia,
     &Payload,
     &GravityDirection,
+    &JointOffsetInMotion,
     &CounterbalanceInMotion,
     &MotorCoupling,
     &TorqueRipple,

@@ -61,7 +61,7 @@ pub(super) fn controlled(
     let start = course.at(0.0);
     let n = start.q.len();
     let mut track = Track::new(n, step);
-    let mut now = real.at(&start.q, &start.qd);
+    let mut now = real.at(&turned(real, &start.q), &start.qd);
     let read = |now: &Moving| -> Vec<f64> {
         encoders(real, now)
             .map(|q| if encoder > 0.0 { (q / encoder).round() * encoder } else { q })
@@ -117,11 +117,12 @@ pub(super) fn followed(real: &Machine, course: &dyn Course, step: f64) -> Track 
 /// Where the links are: behind the motors by what the drives give way, to first order.
 fn links_behind(real: &Machine, wanted: &[State], step: f64) -> Vec<State> {
     let mut links = wanted.to_vec();
+    links.iter_mut().for_each(|link| link.q = turned(real, &link.q));
     if real.drives.iter().all(|drive| drive.compliance == 0.0) {
         return links;
     }
     let bends = |s: &State| -> Vec<f64> {
-        let loads = real.links(&s.q, &s.qd, &s.qdd);
+        let loads = real.links(&turned(real, &s.q), &s.qd, &s.qdd);
         real.drives.iter().zip(loads).map(|(drive, load)| drive.compliance * load).collect()
     };
     let bent: Vec<Vec<f64>> = wanted.iter().map(bends).collect();
@@ -138,10 +139,15 @@ fn links_behind(real: &Machine, wanted: &[State], step: f64) -> Vec<State> {
     links
 }
 
+/// Where the joints are whose encoders are to read so.
+fn turned(real: &Machine, read: &[f64]) -> Vec<f64> {
+    real.drives.iter().zip(read).map(|(drive, q)| q + drive.zero).collect()
+}
+
 /// Encoders sit at the motors: behind the link by what the drive gives way.
 fn encoders<'m>(real: &'m Machine, now: &'m Moving) -> impl Iterator<Item = f64> + 'm {
     let drives = real.drives.iter().zip(&now.loads).zip(&now.q);
-    drives.map(|((drive, load), q)| q + drive.compliance * load)
+    drives.map(|((drive, load), q)| q + drive.compliance * load - drive.zero)
 }
 
 /// What the controller asks of the drives.

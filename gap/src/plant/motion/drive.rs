@@ -29,6 +29,8 @@ pub(super) struct Drive {
     ripples: Vec<[f64; 3]>,
     /// What the link turns against the motor, per torque.
     pub(super) compliance: f64,
+    /// By how much more the joint is turned than its encoder reads.
+    pub(super) zero: f64,
     pub(super) offset: f64,
     pub(super) scale: f64,
     pub(super) saturation: f64,
@@ -93,6 +95,7 @@ impl Drive {
                 self.ripples.push(["cos", "sin", "order"].map(|name| truth.value(name)));
             }
             "joint_elasticity" => self.compliance += size,
+            "joint_offset" => self.zero += size,
             "warm_up" => self.warming += size / 60.0,
             _ => {}
         }

@@ -101,7 +101,7 @@ const fn position(
 }
 
 /// All of them.
-pub static LAWS: [Law; 23] = [
+pub static LAWS: [Law; 24] = [
     torque("coulomb_friction", At::Joints, &[("coulomb", "N·m")]),
     torque("viscous_friction", At::Joints, &[("viscous", "N·m·s/rad")]),
     torque("friction_curve", At::Joints, &[("root", "N·m/√(rad/s)")]),
@@ -125,6 +125,7 @@ pub static LAWS: [Law; 23] = [
     torque("link_inertia", At::Links, BODY),
     torque("payload", At::Tool, BODY),
     torque("gravity_direction", At::Base, &[("rx", "rad"), ("ry", "rad"), ("rz", "rad")]),
+    torque("joint_offset", At::Joints, &[("offset", "rad")]),
     Law {
         name: "latency",
         rows: &[Rows::Torque, Rows::Position],

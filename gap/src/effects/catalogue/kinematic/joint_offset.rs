@@ -35,3 +35,68 @@ impl AtRest for JointOffset {
         format!("the zero of {} is off by {}", told.place, told.sized(told.first()))
     }
 }
+
+/// The zero of a joint is off: the links ask for what they ask at another angle.
+#[derive(Clone, Copy, Debug)]
+pub struct JointOffsetInMotion;
+
+const TORQUE: &Facts = &Facts {
+    identifier: "joint_offset",
+    reality: "The zero of the joint is off: its column is not the robot file's angle.",
+    signature: "From the joint on all links weigh as at another angle.",
+    confused_with: "`gravity_direction`; moments of links, exactly so at a last joint and where the axis is upright.",
+    separated_by: "The joints before it, moved far; a mark on the joint.",
+    formula: "τ(q) → τ(q + offset)",
+    parameters: &[Parameter::free("offset", Quantity::Angle)],
+    bends: true,
+    ..Facts::TORQUE
+};
+
+/// By how much a joint is turned to see what more of an offset does, rad: first order to as much.
+const MORE: f64 = 1e-4;
+
+impl JointOffsetInMotion {
+    /// What the rigid links ask more of all joints, at fine samples.
+    fn asks(scene: &LogScene<'_>, joint: usize, offset: f64) -> Vec<Vec<f64>> {
+        let none = || vec![0.0; scene.signals.t.len()];
+        let less = [none(), none(), vec![-1.0; scene.signals.t.len()]];
+        let mut asks = scene.when_moved(joint, offset, &less);
+        asks.iter_mut().flatten().for_each(|x| *x *= offset);
+        asks
+    }
+
+    fn column(scene: &LogScene<'_>, asks: Vec<Vec<f64>>) -> Column {
+        let parts = asks.into_iter().enumerate();
+        Column { parts: parts.map(|(on, asks)| (on, scene.signals.filtered(&asks))).collect() }
+    }
+}
+
+impl Law for JointOffsetInMotion {
+    fn facts(&self) -> &'static Facts {
+        TORQUE
+    }
+}
+
+impl InMotion for JointOffsetInMotion {
+    fn columns(&self, scene: &LogScene<'_>, spot: Spot, values: &[f64]) -> Vec<Column> {
+        let mut more = Self::asks(scene, spot.row(), values[0] + MORE);
+        if values[0] != 0.0 {
+            let is = Self::asks(scene, spot.row(), values[0]);
+            more.iter_mut().flatten().zip(is.iter().flatten()).for_each(|(more, is)| *more -= is);
+        }
+        more.iter_mut().flatten().for_each(|x| *x /= MORE);
+        vec![Self::column(scene, more)]
+    }
+
+    fn value(&self, scene: &LogScene<'_>, spot: Spot, values: &[f64]) -> Column {
+        Self::column(scene, Self::asks(scene, spot.row(), values[0]))
+    }
+
+    fn is_of_loads(&self) -> bool {
+        true
+    }
+
+    fn write(&self, file: &mut RobotFile<'_>, spot: Spot, values: &[f64]) -> Option<String> {
+        AtRest::write(&JointOffset, file, spot, values)
+    }
+}

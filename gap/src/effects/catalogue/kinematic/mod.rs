@@ -17,7 +17,7 @@ pub use bearing_wobble::BearingWobble;
 pub use geometry::Geometry;
 pub use instrument_scale::InstrumentScale;
 pub use joint_coupling::{JointCoupling, MotorCoupling};
-pub use joint_offset::JointOffset;
+pub use joint_offset::{JointOffset, JointOffsetInMotion};
 pub use joint_ratio::JointRatio;
 pub use link_geometry::LinkGeometry;
 pub use motor_error::MotorError;
