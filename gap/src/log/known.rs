@@ -81,10 +81,11 @@ pub fn table(term: &Acting) -> Table {
 }
 
 /// The effects of a table: those of its identifier that have all its keys, one for torques and one for positions of
-/// a latency.
+/// a latency. A zero is in the angles of the arm already.
 fn effects(table: &Table) -> impl Iterator<Item = &'static dyn InMotion> {
     let is = move |effect: &&'static dyn InMotion| {
         effect.identifier() == table.id.value
+            && !effect.facts().is_geometry
             && table.numbers.iter().all(|entry| effect.number(&entry.key).is_some())
     };
     IN_MOTION.iter().copied().filter(is)
@@ -100,7 +101,7 @@ mod tests {
     use stiffarm_codegen::robot::Robot;
 
     use super::*;
-    use crate::effects::{Catalogue, Depends};
+    use crate::effects::{AtRest, Catalogue, Depends};
 
     /// What an `[[effect]]` of an arm of two joints says in these rows.
     fn said(effect: &str, rows: Domain) -> Result<Vec<(String, Vec<f64>)>, String> {
@@ -139,7 +140,9 @@ mod tests {
         let at_rest = |effect: &&dyn InMotion| {
             let twin = Catalogue::default().named(effect.identifier());
             let kernels = twin.filter(|twin| twin.depends() == Depends::Direction);
-            kernels.is_some_and(|twin| twin.facts().parameters[0].key == effect.parameters()[0].key)
+            let same =
+                |twin: &dyn AtRest| twin.facts().parameters[0].key == effect.parameters()[0].key;
+            effect.facts().is_geometry || kernels.is_some_and(same)
         };
         for effect in IN_MOTION.into_iter().filter(|effect| !at_rest(effect)) {
             let values = vec![0.5; effect.parameters().len()];

@@ -49,6 +49,7 @@ const TORQUE: &Facts = &Facts {
     formula: "τ(q) → τ(q + offset)",
     parameters: &[Parameter::free("offset", Quantity::Angle)],
     bends: true,
+    is_geometry: true,
     ..Facts::TORQUE
 };
 
