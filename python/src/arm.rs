@@ -356,7 +356,7 @@ impl Arm {
             let decided = self.source.refuse_undecided("evaluate", &whole, &at);
             decided.map_err(|failure| work::error(py, &failure))?;
         }
-        Ok(Given { sides, warming: warming.unwrap_or_default() })
+        Ok(Given { sides, warming: warming.unwrap_or_default(), ..Given::default() })
     }
 }
 

@@ -144,7 +144,7 @@ fn given_beside(args: &Args, source: &Source, arm: &Arm) -> Result<Given, Failur
     };
     source.refuse_undecided("eval", &Whole { arm, known: &source.known }, &at)?;
     let sides = args.sides.iter().flatten().map(|side| f64::from(*side)).collect();
-    Ok(Given { sides, warming: args.warming.unwrap_or_default() })
+    Ok(Given { sides, warming: args.warming.unwrap_or_default(), ..Given::default() })
 }
 
 fn joints(source: &Source) -> String {

@@ -67,7 +67,7 @@ impl Branches {
         let Some(rotation) = target.rotation else { return Vec::new() };
         let pose = Isometry3::from_parts(target.position.into(), rotation);
         let sides = at.direction.iter().flatten().map(|side| f64::from(*side)).collect();
-        let given = Given { sides, warming: at.warming.unwrap_or_default() };
+        let given = Given { sides, warming: at.warming.unwrap_or_default(), ..Given::default() };
         let found = self.at(&pose, &[], (Some(&at.load), &given)).into_iter();
         // Near enough for the search to end there: what bends beside the joints is of first order here.
         let reached = found.filter(|b| b.within && b.distance <= 1e-2 && b.tilt <= 1e-2);

@@ -39,6 +39,9 @@ impl Text {
     /// Of an arm of which they are written: not of a GPU's, nor without sines.
     fn of(module: &Module) -> Option<Text> {
         let form = module.ir.robot.inverse_kinematics?;
+        if form.is_search() {
+            return None;
+        }
         let written = module.options.sines != Sines::Given && !module.language.device;
         if !written || !module.ir.robot.has_set_points() {
             return None;
