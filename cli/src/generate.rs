@@ -162,6 +162,12 @@ pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
             robot.want(wanted).map_err(refused)?;
         }
     }
+    if args.emit != Emit::Rust && source.robot.inverse_kinematics.is_some_and(|f| f.is_search()) {
+        return Err(Failure::with_help(
+            "`inverse_kinematics` of this arm is a search, not a closed form, and is written as rust alone",
+            "write rust, or leave it out of the outputs",
+        ));
+    }
     let all = &source.robot.outputs;
     source.refuse_motion(if all.is_empty() { &Output::EACH } else { all })?;
     let mut verdict = Verdict::Good;
@@ -221,7 +227,7 @@ impl Args {
 
     /// What shows the joints as they are, and not their readings, is not made of an arm of which these differ.
     fn fits(&self, robot: &Robot) -> Result<(), Failure> {
-        let inverse = self.outputs.contains(&Wanted::InverseKinematics);
+        let inverse = self.outputs.iter().any(|w| matches!(w, Wanted::InverseKinematics(_)));
         if inverse && !matches!(self.emit, Emit::Rust | Emit::C | Emit::Cuda | Emit::Python) {
             return Err(Failure::with_help(
                 "--outputs: `inverse_kinematics` is not for latex and dot",

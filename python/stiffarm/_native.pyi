@@ -91,6 +91,7 @@ class Arm:
         wrench: Optional[Sequence[float]] = None,
         sides: Optional[ArrayLike] = None,
         warming: Optional[float] = None,
+        kept: tuple[Optional[str], Optional[float]] = (None, None),
     ) -> tuple[NDArray[numpy.float64], NDArray[numpy.float64], NDArray[numpy.float64], NDArray[numpy.bool_], list[str]]: ...
     def evaluate(
         self,

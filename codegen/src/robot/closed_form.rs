@@ -3,10 +3,11 @@
 //! Only what is exactly zero counts: an axis that misses another by a micrometre does not meet it. Such an arm has the closed
 //! form of the [nearest](super::nearest) table, and steps behind it.
 
+use stiffarm_kernels::Axes;
+
 use super::families::{Chain, elbow_angle, family};
 use super::frames::Refused;
 use super::model::Robot;
-use super::search::MOST;
 use super::sliding::Sliding;
 
 /// What is chosen to be given of seven joints, of which a pose leaves one free.
@@ -147,7 +148,7 @@ impl ClosedForm {
     /// The number of branches.
     pub fn branches(self) -> usize {
         match self.family {
-            Family::Search { .. } => MOST,
+            Family::Search { .. } => Axes::<6>::MOST,
             _ => 1 << self.bits().len(),
         }
     }

@@ -8,9 +8,6 @@ use super::closed_form::{ClosedForm, Family, Redundancy};
 use super::model::{Convention, Motion, Robot, Value};
 use super::space::Frame;
 
-/// The most solutions that a search finds.
-pub(crate) const MOST: usize = 16;
-
 /// Postures at which a search is tried, and how many of them it may fail to find again. Of axes in general position all are
 /// found; where some meet or are parallel it depends on which joint is in the middle of the equations: of a spherical wrist
 /// one in ten is missed, of the wrists of a Fanuc CRX and a Kinova Jaco one in 500 of the best joint.

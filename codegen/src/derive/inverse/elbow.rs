@@ -125,7 +125,7 @@ pub fn elbow_angle(robot: &Robot, form: ClosedForm) -> Program {
     let angle = dot(elbow, beside).atan2(dot(elbow, reference)).e;
     let sentence = "The elbow's angle about the line from shoulder to wrist: zero where the elbow is in the plane of axis 1 \
                     and that line, on the side to which axis 1 points";
-    let held = Held::Own(quantity(ELBOW_ANGLE, "rad", sentence.to_owned(), Size::Scalar));
+    let held = Held::Own(quantity(ELBOW_ANGLE, "rad", "The angle".to_owned(), Size::Scalar));
     Program {
         graph: sheet.graph.into_inner(),
         blocks: vec![Block { held, entries: vec![angle] }],

@@ -9,7 +9,7 @@ use super::Sines;
 use crate::derive::steps;
 use crate::emit::lines::Lines;
 use crate::ir::Extra;
-use crate::robot::{CLOSED_FORM, GIVES};
+use crate::robot::{CLOSED_FORM, Family, GIVES};
 use text::{at_rest, displaced, missed, step, whole};
 
 /// What the text of an arm depends on.
@@ -33,6 +33,8 @@ struct Text {
     branches: usize,
     /// The joint that is given.
     held: Option<usize>,
+    /// Whether the elbow's angle is.
+    elbow: bool,
 }
 
 impl Text {
@@ -70,6 +72,7 @@ impl Text {
             n: module.ir.robot.dof(),
             branches: form.branches(),
             held: form.given,
+            elbow: form.family == Family::ElbowAngle,
             suffix: module.language.suffix(),
             name,
             upper,

@@ -304,15 +304,23 @@ pub(super) fn whole(text: &Text) -> String {
         _ => text.lit(f64::from(f32::MAX)),
     };
     let head = text.head();
+    let (declared, told, angle) = match text.elbow {
+        true => (
+            format!("    {real} elbow[1];\n"),
+            format!("    {name}_elbow_angle(q{given}, elbow);\n"),
+            ", elbow[0]",
+        ),
+        false => (String::new(), String::new(), ""),
+    };
     format!(
         "
 {head}
 {{
     const {real} most = {most};
     {name}_{closed}_t begin;
-    unsigned int branch;
+{declared}    unsigned int branch;
 
-    {name}_{closed}(q{given}, target, &begin);
+{told}    {name}_{closed}(q{given}, target{angle}, &begin);
     for (branch = 0U; branch < {branches}U; branch++)
     {{
         const {real} *const joints = &begin.q[{n}U * branch];
