@@ -114,8 +114,8 @@ impl<S: Scalar, const N: usize, const K: usize> Solutions<S, N, K> {
     pub fn each(mut self, follow: impl Fn([S; N]) -> Result<([S; N], [S; 2]), Unstable>) -> Self {
         for branch in 0..K {
             let infinite = [S::lit(f64::INFINITY); 2];
-            let found = (S::lit(f64::MAX) - self.distance[branch]).is_positive();
-            let followed = if found { follow(self.q[branch]) } else { Err(Unstable) };
+            let none = (self.distance[branch] - S::lit(f64::from(f32::MAX))).is_positive();
+            let followed = if none { Err(Unstable) } else { follow(self.q[branch]) };
             let (q, missed) = followed.unwrap_or((self.q[branch], infinite));
             (self.q[branch], [self.distance[branch], self.tilt[branch]]) = (q, missed);
         }

@@ -261,9 +261,9 @@ macro_rules! arm {
 }
 
 fn main() {
-    let Some(directory) = std::env::args().nth(1) else { return inverse::compete() };
+    let Some(directory) = std::env::args().nth(1) else { return inverse::all(None) };
     let directory = directory.as_str();
     arm!(directory ur10 6);
     arm!(directory panda 7);
-    inverse::compete();
+    inverse::all(Some(directory));
 }
