@@ -5,7 +5,7 @@ use core::f64::consts::FRAC_PI_2;
 use rs_opw_kinematics::kinematic_traits::Kinematics as _;
 use rs_opw_kinematics::kinematics_impl::OPWKinematics;
 use rs_opw_kinematics::parameters::opw_kinematics::Parameters;
-use stiffarm::kernels::{Arm, ElbowAngle, Inverse, Pose, has};
+use stiffarm::kernels::{ElbowAngle, Inverse, Pose, has};
 
 use super::screws::{Screws, screws};
 use super::{POSES, Way, apart, compete, postures};
@@ -19,6 +19,7 @@ macro_rules! arms {
             }
         )*
         /// The same as they are built.
+        #[allow(dead_code, clippy::all, reason = "generated text has more than is timed")]
         mod as_built {
             $(pub mod $name { include!(concat!(env!("OUT_DIR"), $built)); })*
         }
@@ -135,8 +136,9 @@ fn opw<'a>(peer: &'a OPWKinematics, near: &'a [[f64; 6]]) -> Way<'a> {
         }),
         miss: Box::new(move |k, q| {
             let reached = peer.forward(&core::array::from_fn(|joint| q[joint]));
-            let off = reached.translation.vector - third[k].translation.vector;
-            off.norm().max(reached.rotation.angle_to(&third[k].rotation))
+            let left = reached.rotation.inverse() * third[k].rotation;
+            let turned = 2.0 * left.x.hypot(left.y).hypot(left.z);
+            (reached.translation - third[k].translation).length().max(turned)
         }),
         poses: POSES,
     }
@@ -152,7 +154,7 @@ macro_rules! six {
         let near = postures::<6>($singular, $elbow);
         let poses: Vec<Pose<f64>> = near.iter().map($arm::pose).collect();
         let screws = screws(&$arm::Robot, $groups);
-        write($directory, (stringify!($arm), $singular), &screws, &poses);
+        write($directory, (stringify!($arm), kind($singular)), &screws, &poses);
         let peer: Option<[f64; 7]> = $opw;
         let peer = peer.map(parameters);
         let mut ways = vec![own(&$arm::Robot, &poses, &near)];
@@ -163,18 +165,21 @@ macro_rules! six {
     }};
 }
 
+fn kind(singular: bool) -> &'static str {
+    if singular { "singular" } else { "random" }
+}
+
 fn title(arm: &str, singular: bool) -> String {
     format!("{arm}, {}", if singular { "near singular poses" } else { "random poses" })
 }
 
 fn write<const N: usize>(
     directory: Option<&str>,
-    (arm, singular): (&str, bool),
+    (arm, kind): (&str, &str),
     screws: &Screws<N>,
     poses: &[Pose<f64>],
 ) {
     let Some(directory) = directory else { return };
-    let kind = if singular { "singular" } else { "random" };
     let path = format!("{directory}/{arm}.{kind}.screws");
     std::fs::write(path, screws.written(poses)).expect("the directory can be written to");
 }
@@ -194,7 +199,7 @@ pub fn nominal(singular: bool, directory: Option<&str>) {
     let poses: Vec<Pose<f64>> = near.iter().map(iiwa14::pose).collect();
     let angles: Vec<f64> = near.iter().map(iiwa14::elbow_angle).collect();
     let screws = screws(&iiwa14::Robot, &[&[0, 1, 2], &[4, 5, 6]]);
-    write(directory, ("iiwa14", singular), &screws, &poses);
+    write(directory, ("iiwa14", kind(singular)), &screws, &poses);
     let mut first = own(&iiwa14::Robot, &poses, &near);
     let arm = iiwa14::Robot;
     first.run = Box::new(|k| {
@@ -213,7 +218,7 @@ pub fn nominal(singular: bool, directory: Option<&str>) {
 }
 
 macro_rules! built {
-    ($arm:ident, $groups:expr, $family:ident) => {{
+    ($directory:ident $arm:ident, $groups:expr, $family:ident) => {{
         let near = postures::<6>(false, 0.0);
         let poses: Vec<Pose<f64>> = near.iter().map(as_built::$arm::pose).collect();
         let (as_designed, as_it_is) =
@@ -235,16 +240,17 @@ macro_rules! built {
                 ("ik-geo by six general axes", ik_geo::robot::gen_six_dof, 8),
             ),
         ]);
-        let _ = (as_designed, as_it_is);
+        let _ = &as_designed;
+        write($directory, (stringify!($arm), "built"), &as_it_is, &poses);
         compete(concat!(stringify!($arm), " as built, random poses"), &ways);
     }};
 }
 
 /// The same arms with every entry off by up to 0.5 mm or 0.5 mrad.
-pub fn built() {
+pub fn built(directory: Option<&str>) {
     const WRIST: &[&[usize]] = &[&[3, 4, 5]];
-    built!(kr240, WRIST, spherical_two_parallel);
-    built!(irb120, WRIST, spherical_two_parallel);
-    built!(puma560, WRIST, spherical_two_parallel);
-    built!(ur10, &[&[4, 5]], three_parallel_two_intersecting);
+    built!(directory kr240, WRIST, spherical_two_parallel);
+    built!(directory irb120, WRIST, spherical_two_parallel);
+    built!(directory puma560, WRIST, spherical_two_parallel);
+    built!(directory ur10, &[&[4, 5]], three_parallel_two_intersecting);
 }

@@ -116,5 +116,5 @@ pub fn all(directory: Option<&str>) {
     for singular in [false, true] {
         nominal(singular, directory);
     }
-    built();
+    built(directory);
 }

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use stiffarm::kernels::{Arm, Pose, has};
+use stiffarm::kernels::{Pose, has};
 
 type Vector = [f64; 3];
 
