@@ -11,7 +11,7 @@
 # Then the equations of motion of a UR10 and a Panda, likewise: stiffarm's C beside CasADi's, Pinocchio and the C that
 # CppADCodeGen prints of Pinocchio by turns, and stiffarm's Rust beside the crates dynibo and featherstone; and the fit of
 # base parameters alone beside Pinocchio's regressor and FIGAROH. At last the inverse kinematics beside the crates ik-geo and
-# rs-opw-kinematics, and beside EAIK.
+# rs-opw-kinematics, EAIK and the C of roboticstoolbox.
 #
 # A peer that is not installed is skipped with a sentence. EIGEN is the folder of Eigen's headers. FLAGS and RUSTFLAGS choose the target; the
 # default is the machine's own processor for all. Plain x86-64 instead:
@@ -29,7 +29,7 @@ eigen=${EIGEN:-/usr/include/eigen3}
 
 if [ "${1:-}" = --install ]; then
     apt-get install -y --no-install-recommends liborocos-kdl-dev libeigen3-dev g++ cmake
-    "$python" -m pip install --quiet casadi pin cmeel-cppad cmeel-cppadcodegen figaroh symforce wrenfold eaik
+    "$python" -m pip install --quiet casadi pin cmeel-cppad cmeel-cppadcodegen figaroh symforce wrenfold eaik roboticstoolbox-python python-flint
 fi
 
 say() { printf '%s\n' "$*" >&2; }
@@ -149,8 +149,4 @@ if cargo build --quiet --release --manifest-path crates/Cargo.toml "${with[@]}" 
 else
     say "dynibo, featherstone, ik-geo and rs-opw-kinematics are skipped: they could not be built; $(tail -n 1 "$work/crates.log")"
 fi
-if "$python" -c 'import eaik' 2>/dev/null; then
-    "$python" eaik_peer.py "$work"
-else
-    say "EAIK is skipped: the Python package eaik is not installed"
-fi
+"$python" inverse_peers.py "$work"

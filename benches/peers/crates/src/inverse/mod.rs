@@ -1,6 +1,6 @@
 //! All branches of inverse kinematics by ik-geo (Elias & Wen 2024) and rs-opw-kinematics (Brandstötter, Angerer & Hofbaur
-//! 2014) beside stiffarm's: each one's solutions by forward kinematics, then timed by turns. What EAIK takes is written into
-//! the directory, for `eaik_peer.py`.
+//! 2014) beside stiffarm's: each one's solutions by forward kinematics, then timed by turns. What the peers in Python take is
+//! written into the directory, for `inverse_peers.py`.
 //!
 //! Found is a solution that misses its pose by less than 1e-6 m and rad; those that exist are what stiffarm finds.
 

@@ -58,7 +58,7 @@ impl<const N: usize> Screws<N> {
         })
     }
 
-    /// What `eaik_peer.py` reads: directions, offsets, and a line for each pose.
+    /// What `inverse_peers.py` reads: directions, offsets, the tool's axes, and a line for each pose.
     pub fn written(&self, poses: &[Pose<f64>]) -> String {
         let mut text = String::new();
         let mut line = |numbers: &[f64]| {
@@ -67,6 +67,7 @@ impl<const N: usize> Screws<N> {
         };
         line(self.directions.as_flattened());
         line(self.offsets.as_flattened());
+        line(self.home.as_flattened());
         for pose in poses {
             let columns = self.turned(pose);
             line(&[columns.as_flattened(), &pose.position].concat());
