@@ -64,11 +64,7 @@ const WITH_ELBOW: [&str; 4] =
 const ANGLE: f64 = 0.5;
 
 /// Reads joint values, a pose and a wrench as bits, prints all branches as bits.
-fn program(
-    function: &str,
-    (given, elbow): (&str, bool),
-    [joints, branches]: [usize; 2],
-) -> String {
+fn program(function: &str, (given, elbow): (&str, bool), [joints, branches]: [usize; 2]) -> String {
     let (pose, load, all) = (joints, joints + 12, joints + 18);
     let load = match function {
         "set_points" => format!(", &x[{load}]"),
@@ -139,7 +135,7 @@ fn compiled(compiler: &str, id: &str, outputs: &[&str]) -> Folder {
     let near = !robot.is_as_its_table() || robot.closed_form().is_err();
     let function = match outputs.len() {
         2 if near => "closed_form",
-        2 => "inverse_kinematics",
+        2 | 3 => "inverse_kinematics",
         _ => "set_points",
     };
     let given = if robot.beyond.takes_sides() { ", sides" } else { "" };
@@ -213,6 +209,11 @@ fn branches_are_the_rust_kernels_bits(compiler: &str) {
     check!(puma560::Robot, "robots/arms/puma560.toml");
     check!(ur10::Robot, "robots/arms/ur10.toml");
     check!(calibrated, "tests/data/calibrated_ur10.toml");
+    check(
+        compiler,
+        (&calibrated, "tests/data/calibrated_ur10.toml", &OUTPUTS[..3]),
+        |pose, near, _| calibrated.inverse_kinematics(pose, near),
+    );
     check!(panda::Robot, "robots/arms/panda.toml");
     check!(iiwa14::Robot, "robots/arms/iiwa14.toml");
     check(
@@ -240,9 +241,7 @@ fn set_points_are_the_rust_kernels_bits(compiler: &str) {
     check!(loaded::plane::Robot, "robots/arms/bicchi_3r.toml");
     check!(calibrated, "tests/data/calibrated_kuka.toml");
     let elbow = loaded::elbow::Robot;
-    check(
-        compiler,
-        (&elbow, "robots/arms/iiwa14.toml", &WITH_ELBOW),
-        |pose, near, wrench| elbow.set_points(pose, near, wrench),
-    );
+    check(compiler, (&elbow, "robots/arms/iiwa14.toml", &WITH_ELBOW), |pose, near, wrench| {
+        elbow.set_points(pose, near, wrench)
+    });
 }
