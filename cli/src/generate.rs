@@ -162,12 +162,7 @@ pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
             robot.want(wanted).map_err(refused)?;
         }
     }
-    if args.emit != Emit::Rust && source.robot.inverse_kinematics.is_some_and(|f| f.is_search()) {
-        return Err(Failure::with_help(
-            "`inverse_kinematics` of this arm is a search, not a closed form, and is written as rust alone",
-            "write rust, or leave it out of the outputs",
-        ));
-    }
+    args.has_inverse(&source.robot)?;
     let all = &source.robot.outputs;
     source.refuse_motion(if all.is_empty() { &Output::EACH } else { all })?;
     let mut verdict = Verdict::Good;
@@ -246,6 +241,26 @@ impl Args {
         Err(Failure::with_help(
             format!("{what} has no place for the {name} at {place}"),
             "kernels have: --emit rust, python, cuda, or c with its own sines",
+        ))
+    }
+
+    /// What is behind the inverse kinematics has to be written in the language, too.
+    fn has_inverse(&self, robot: &Robot) -> Result<(), Failure> {
+        let exact = robot.is_as_its_table() && robot.closed_form().is_ok();
+        let (what, written) = match (robot.inverse_kinematics, self.emit) {
+            (Some(form), emit) if form.is_search() && emit != Emit::Rust => {
+                ("a search, not a closed form", "rust")
+            }
+            (Some(_), Emit::Python | Emit::Cuda) if !exact => {
+                ("a closed form of another table with steps behind it", "rust or c")
+            }
+            _ => return Ok(()),
+        };
+        Err(Failure::with_help(
+            format!(
+                "`inverse_kinematics` of this arm is {what}, and is written as {written} alone"
+            ),
+            format!("write {written}, or leave it out of the outputs"),
         ))
     }
 

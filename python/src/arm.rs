@@ -198,8 +198,8 @@ impl Arm {
     }
 
     /// Every branch of the inverse kinematics at one pose or many (4, 4), near readings `near`; of the loaded arm where there is a
-    /// `wrench` (6,), base axes; `kept` is what is given of seven joints, and the elbow's angle where that is and is not near's.
-    #[pyo3(signature = (pose, near=None, wrench=None, sides=None, warming=None, kept=(None, None)))]
+    /// `wrench` (6,), base axes; `kept` is what is given of seven joints, `elbow_angle` that angle where it is not near's.
+    #[pyo3(signature = (pose, near=None, wrench=None, sides=None, warming=None, kept=None, elbow_angle=None))]
     fn branches<'py>(
         &self,
         py: Python<'py>,
@@ -208,18 +208,18 @@ impl Arm {
         wrench: Option<[f64; 6]>,
         sides: Option<&Bound<'py, PyAny>>,
         warming: Option<f64>,
-        kept: (Option<String>, Option<f64>),
+        kept: Option<String>,
+        elbow_angle: Option<f64>,
     ) -> PyResult<Found<'py>> {
         let mut given = self.given_beside(py, sides, warming)?;
-        let (what, angle) = kept;
-        given.elbow_angle = angle;
+        given.elbow_angle = elbow_angle;
         let found = || -> Result<Arc<Inverse>, String> {
             let mut known = self.inverse.lock().unwrap_or_else(PoisonError::into_inner);
-            if let Some(inverse) = known.get(&what) {
+            if let Some(inverse) = known.get(&kept) {
                 return Ok(Arc::clone(inverse));
             }
-            let inverse = Arc::new(Inverse::new(self.engines.robot(), what.as_deref())?);
-            known.insert(what.clone(), Arc::clone(&inverse));
+            let inverse = Arc::new(Inverse::new(self.engines.robot(), kept.as_deref())?);
+            known.insert(kept.clone(), Arc::clone(&inverse));
             Ok(inverse)
         };
         let inverse = py.detach(found).map_err(PyValueError::new_err)?;

@@ -144,7 +144,7 @@ class Arm(_native.Arm, Outputs):
         load = None if wrench is None else [float(each) for each in wrench]
         kept = "elbow_angle" if given is None and elbow_angle is not None else given
         what = None if kept is None else str(kept)
-        return Branches(*self.branches(pose, near, load, sides, warming, (what, elbow_angle)))
+        return Branches(*self.branches(pose, near, load, sides, warming, what, elbow_angle))
 
     #: Its short name.
     regressor = Outputs.torque_regressor
