@@ -26,11 +26,13 @@ use crate::{Motion, Pose, Scalar};
 /// The most solutions that six joints have.
 const MOST: usize = 16;
 
-/// A root of the determinant is tried as an angle where its distance from the circle's logarithm is below this: rounding
-/// moves double roots off the circle, and what is no solution ends nowhere.
+/// A root of the determinant is tried as an angle where the logarithm of its distance from zero is below this: rounding moves
+/// double roots off the circle, and what is no solution ends nowhere. From 0.05 to 20 the share of solutions that are found
+/// changes by less than 0.2 %; what is tried in vain takes time.
 const BESIDE: f64 = 0.2;
 
-/// A root that is this near the circle is most likely an angle.
+/// A root that is this near the circle is most likely an angle. With 1e-6 the wrist of a Fanuc CRX misses 0.85 % of its
+/// solutions, with this 0.26 %; of axes in general position none are missed with either.
 const ON: f64 = 1e-2;
 
 /// Newton's steps from each root at most; nearly all take fewer than five.
@@ -137,7 +139,7 @@ impl SixAxes {
         q
     }
 
-    /// Every solution, with joint `third` from 0 in the middle of the equations.
+    /// Every solution, with joint `third` from 0 in the middle of the equations; how many roots are most likely angles.
     fn solve(&self, third: usize, found: &mut Found) -> usize {
         // e_1 … e_6 = G is e_{k+1} … e_6 (G⁻¹ e_1 G) … (G⁻¹ e_k G) = G.
         let displacement = {
@@ -186,7 +188,8 @@ impl<const N: usize> Axes<N> {
     }
 
     /// Every solution at a pose of the tool, base axes, with the joint that is `given` where `near` has it; joint `third`, of
-    /// the six that are left, is in the middle of the equations. What is no solution misses the pose by an infinite distance.
+    /// the six that are left, is in the middle of the equations. What is no solution misses the pose by an infinite distance;
+    /// of arms with other than six joints, or seven of which one is given, nothing is one.
     pub fn search<S: Scalar + Into<f64>>(
         &self,
         pose: &Pose<S>,
@@ -206,8 +209,17 @@ impl<const N: usize> Axes<N> {
             all.lines.iter_mut().skip(joint + 1).for_each(|line| *line = by.line(*line));
             all.home = by.pose(&self.home);
         }
+        let mut out = Solutions {
+            q: [*near; MOST],
+            distance: [S::lit(f64::INFINITY); MOST],
+            tilt: [S::lit(f64::INFINITY); MOST],
+            motion: [Motion::Revolute; N],
+        };
+        if N != if given.is_some() { 7 } else { 6 } {
+            return out;
+        }
         let kept = |k: usize| if given.is_some_and(|joint| k >= joint) { k + 1 } else { k };
-        let lines: [[V3; 2]; 6] = core::array::from_fn(|k| all.lines[kept(k).min(N - 1)]);
+        let lines: [[V3; 2]; 6] = core::array::from_fn(|k| all.lines[kept(k)]);
         let [_, origin] = lines[2];
         let from = |p: V3| plus(p, -1.0, origin);
         let most = lines.iter().map(|[_, p]| from(*p)).chain([from(all.home.position)]);
@@ -226,12 +238,6 @@ impl<const N: usize> Axes<N> {
                 break;
             }
         }
-        let mut out = Solutions {
-            q: [*near; MOST],
-            distance: [S::lit(f64::INFINITY); MOST],
-            tilt: [S::lit(f64::INFINITY); MOST],
-            motion: [Motion::Revolute; N],
-        };
         for (branch, q) in found.q[..found.count].iter().enumerate() {
             let [distance, tilt] = missed(&arm.at(q).0, &arm.target);
             (out.distance[branch], out.tilt[branch]) = (S::lit(size * distance), S::lit(tilt));
