@@ -9,7 +9,7 @@ use stiffarm_kernels::{Pose, Steps, nearest_branch};
 use super::arms::{Arm, FAMILIES, random, reference};
 
 /// Every length and angle of the table off by up to so much, m and rad.
-fn off(robot: &Robot, by: f64, draws: &mut Draws) -> Robot {
+pub fn off(robot: &Robot, by: f64, draws: &mut Draws) -> Robot {
     let mut robot = robot.clone();
     let mut drawn = |at: f64| Number::rounded(at + by * draws.unit());
     for joint in &mut robot.joints {
