@@ -223,10 +223,10 @@ impl Args {
     /// What shows the joints as they are, and not their readings, is not made of an arm of which these differ.
     fn fits(&self, robot: &Robot) -> Result<(), Failure> {
         let inverse = self.outputs.iter().any(|w| matches!(w, Wanted::InverseKinematics(_)));
-        if inverse && !matches!(self.emit, Emit::Rust | Emit::C | Emit::Cuda | Emit::Python) {
+        if inverse && self.emit == Emit::Dot {
             return Err(Failure::with_help(
-                "--outputs: `inverse_kinematics` is not for latex and dot",
-                "it is written as rust, c, cuda or python",
+                "--outputs: `inverse_kinematics` is not for dot",
+                "it is written as rust, c, cuda, python or latex",
             ));
         }
         let what = match (self.emit, &self.flexible, self.sines) {
@@ -251,7 +251,7 @@ impl Args {
             (Some(form), emit) if form.is_search() && emit != Emit::Rust => {
                 ("a search, not a closed form", "rust")
             }
-            (Some(_), Emit::Python | Emit::Cuda) if !exact => {
+            (Some(_), Emit::Python | Emit::Cuda | Emit::Latex) if !exact => {
                 ("a closed form of another table with steps behind it", "rust or c")
             }
             _ => return Ok(()),

@@ -2,6 +2,7 @@
 
 use nalgebra::{Isometry3, Vector3};
 use stiffarm_codegen::derive::{AsItIs, Given};
+use stiffarm_codegen::emit::latex;
 use stiffarm_codegen::number::Number;
 use stiffarm_codegen::robot::{ClosedForm, Family, Redundancy, Robot, Value};
 use stiffarm_draws::Draws;
@@ -267,4 +268,15 @@ fn an_offset_wrist_is_searched() {
     robot.joints[4].d = Value::Number(Number::rounded(0.15));
     let form = robot.nearest_closed_form().expect("a search");
     assert!(form.is_search(), "{form:?}");
+}
+
+/// The formulas on paper: the same steps as in every other text.
+#[test]
+fn the_inverse_is_written_as_latex() {
+    let mut robot = built_in("kuka_kr240");
+    robot.inverse_kinematics = Some(robot.closed_form().expect("a closed form"));
+    let text = latex(&robot, &[]);
+    assert!(text.contains("\\subsection*{inverse kinematics}"), "{text}");
+    assert!(text.contains("q_{6}^{(8)} &= "), "{text}");
+    assert!(text.contains("\\mathit{distance}^{(8)} &= "), "{text}");
 }
