@@ -68,8 +68,10 @@ impl Robot {
             }
         }
         let Frame { axes, origin } = at.then(&placed(&self.tool));
-        let line = |k: usize| lines.get(k).copied().unwrap_or([axes[2], origin]);
-        let home = Pose { rotation: axes, position: origin };
+        // Rounding of a right angle's cosine.
+        let clean = |v: [f64; 3]| v.map(|x| if x.abs() < 1e-15 { 0.0 } else { x });
+        let line = |k: usize| lines.get(k).copied().unwrap_or([axes[2], origin]).map(clean);
+        let home = Pose { rotation: axes.map(clean), position: clean(origin) };
         Axes { lines: core::array::from_fn(line), home }
     }
 }
