@@ -9,8 +9,9 @@
 #   benches/peers/run.sh --install       # first from Debian (Orocos KDL) and PyPI (the others)
 #
 # Then the equations of motion of a UR10 and a Panda, likewise: stiffarm's C beside CasADi's, Pinocchio and the C that
-# CppADCodeGen prints of Pinocchio by turns, and stiffarm's Rust beside the crates dynibo and featherstone; and the fit of base parameters alone beside Pinocchio's regressor
-# and FIGAROH.
+# CppADCodeGen prints of Pinocchio by turns, and stiffarm's Rust beside the crates dynibo and featherstone; and the fit of
+# base parameters alone beside Pinocchio's regressor and FIGAROH. At last the inverse kinematics beside the crates ik-geo and
+# rs-opw-kinematics, EAIK and the C of roboticstoolbox.
 #
 # A peer that is not installed is skipped with a sentence. EIGEN is the folder of Eigen's headers. FLAGS and RUSTFLAGS choose the target; the
 # default is the machine's own processor for all. Plain x86-64 instead:
@@ -27,8 +28,8 @@ python=${PYTHON:-python3}
 eigen=${EIGEN:-/usr/include/eigen3}
 
 if [ "${1:-}" = --install ]; then
-    apt-get install -y --no-install-recommends liborocos-kdl-dev libeigen3-dev g++
-    "$python" -m pip install --quiet casadi pin cmeel-cppad cmeel-cppadcodegen figaroh symforce wrenfold
+    apt-get install -y --no-install-recommends liborocos-kdl-dev libeigen3-dev g++ cmake
+    "$python" -m pip install --quiet casadi pin cmeel-cppad cmeel-cppadcodegen figaroh symforce wrenfold eaik roboticstoolbox-python python-flint
 fi
 
 say() { printf '%s\n' "$*" >&2; }
@@ -134,8 +135,18 @@ else
     say "the base parameters of Pinocchio and FIGAROH are skipped: the Python package pin is not installed"
 fi
 
-if cargo build --quiet --release --manifest-path crates/Cargo.toml --target-dir "$work/crates" 2> "$work/crates.log"; then
+# ik-geo builds NLopt with cmake.
+with=()
+if command -v cmake > "$work/cmake"; then
+    with+=(--features ik-geo)
+    # Of NLopt's own build file, for a cmake of today.
+    export CMAKE_POLICY_VERSION_MINIMUM=3.5
+else
+    say "ik-geo is skipped: cmake is not installed"
+fi
+if cargo build --quiet --release --manifest-path crates/Cargo.toml "${with[@]}" --target-dir "$work/crates" 2> "$work/crates.log"; then
     "$work/crates/release/crates-peer" "$work"
 else
-    say "dynibo and featherstone are skipped: they could not be built; $(tail -n 1 "$work/crates.log")"
+    say "dynibo, featherstone, ik-geo and rs-opw-kinematics are skipped: they could not be built; $(tail -n 1 "$work/crates.log")"
 fi
+"$python" inverse_peers.py "$work"

@@ -140,7 +140,7 @@ fn drawn(q: &[f64], (base, w): (UnitQuaternion<f64>, &[f64; 6])) -> Situation {
 /// The same for the kernels.
 fn given(at: &Situation) -> Given {
     let sides = at.direction.iter().flatten().map(|side| f64::from(*side)).collect();
-    Given { sides, warming: at.warming.unwrap_or_default() }
+    Given { sides, warming: at.warming.unwrap_or_default(), ..Given::default() }
 }
 
 /// The result as it is written. Deviations are relative to the output's scale, by what they are from; evaluations in

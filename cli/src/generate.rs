@@ -162,6 +162,7 @@ pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
             robot.want(wanted).map_err(refused)?;
         }
     }
+    args.has_inverse(&source.robot)?;
     let all = &source.robot.outputs;
     source.refuse_motion(if all.is_empty() { &Output::EACH } else { all })?;
     let mut verdict = Verdict::Good;
@@ -221,11 +222,11 @@ impl Args {
 
     /// What shows the joints as they are, and not their readings, is not made of an arm of which these differ.
     fn fits(&self, robot: &Robot) -> Result<(), Failure> {
-        let inverse = self.outputs.contains(&Wanted::InverseKinematics);
-        if inverse && !matches!(self.emit, Emit::Rust | Emit::C | Emit::Cuda | Emit::Python) {
+        let inverse = self.outputs.iter().any(|w| matches!(w, Wanted::InverseKinematics(_)));
+        if inverse && self.emit == Emit::Dot {
             return Err(Failure::with_help(
-                "--outputs: `inverse_kinematics` is not for latex and dot",
-                "it is written as rust, c, cuda or python",
+                "--outputs: `inverse_kinematics` is not for dot",
+                "it is written as rust, c, cuda, python or latex",
             ));
         }
         let what = match (self.emit, &self.flexible, self.sines) {
@@ -240,6 +241,26 @@ impl Args {
         Err(Failure::with_help(
             format!("{what} has no place for the {name} at {place}"),
             "kernels have: --emit rust, python, cuda, or c with its own sines",
+        ))
+    }
+
+    /// What is behind the inverse kinematics has to be written in the language, too.
+    fn has_inverse(&self, robot: &Robot) -> Result<(), Failure> {
+        let exact = robot.is_as_its_table() && robot.closed_form().is_ok();
+        let (what, written) = match (robot.inverse_kinematics, self.emit) {
+            (Some(form), emit) if form.is_search() && emit != Emit::Rust => {
+                ("a search, not a closed form", "rust")
+            }
+            (Some(_), Emit::Python | Emit::Cuda | Emit::Latex) if !exact => {
+                ("a closed form of another table with steps behind it", "rust or c")
+            }
+            _ => return Ok(()),
+        };
+        Err(Failure::with_help(
+            format!(
+                "`inverse_kinematics` of this arm is {what}, and is written as {written} alone"
+            ),
+            format!("write {written}, or leave it out of the outputs"),
         ))
     }
 

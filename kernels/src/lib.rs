@@ -34,8 +34,8 @@ pub use interop::simba;
 #[doc(hidden)]
 pub use inverse::unloaded;
 pub use inverse::{
-    AtRest, Elastic, Gives, Inverse, JointValues, SetPoints, Solution, Solutions, Steps,
-    nearest_branch,
+    AtRest, Axes, Elastic, ElbowAngle, Gives, Inverse, JointValues, SetPoints, Solution, Solutions,
+    Steps, nearest_branch,
 };
 #[doc(hidden)]
 pub use kernel::fill;

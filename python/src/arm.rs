@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 use std::path::PathBuf;
-use std::sync::OnceLock;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use nalgebra::Vector6;
 use numpy::{PyArrayMethods, PyUntypedArrayMethods};
@@ -66,7 +66,8 @@ pub struct Arm {
     source: Source,
     text: String,
     engines: Engines,
-    inverse: OnceLock<Result<Inverse, String>>,
+    /// By what is given of seven joints.
+    inverse: Mutex<HashMap<Option<String>, Arc<Inverse>>>,
 }
 
 #[pymethods]
@@ -100,7 +101,7 @@ impl Arm {
         let id = (source.built_in && !is_set).then_some(source.given.as_str());
         let engines = Engines::new(robot, table, id.and_then(stiffarm_robots::arm));
         let text = if is_set { source.robot.to_toml() } else { source.text.clone() };
-        Ok(Arm { source, text, engines, inverse: OnceLock::new() })
+        Ok(Arm { source, text, engines, inverse: Mutex::default() })
     }
 
     /// The arm's name.
@@ -197,8 +198,8 @@ impl Arm {
     }
 
     /// Every branch of the inverse kinematics at one pose or many (4, 4), near readings `near`; of the loaded arm where there is a
-    /// `wrench` (6,), base axes.
-    #[pyo3(signature = (pose, near=None, wrench=None, sides=None, warming=None))]
+    /// `wrench` (6,), base axes; `kept` is what is given of seven joints, `elbow_angle` that angle where it is not near's.
+    #[pyo3(signature = (pose, near=None, wrench=None, sides=None, warming=None, kept=None, elbow_angle=None))]
     fn branches<'py>(
         &self,
         py: Python<'py>,
@@ -207,11 +208,21 @@ impl Arm {
         wrench: Option<[f64; 6]>,
         sides: Option<&Bound<'py, PyAny>>,
         warming: Option<f64>,
+        kept: Option<String>,
+        elbow_angle: Option<f64>,
     ) -> PyResult<Found<'py>> {
-        let given = self.given_beside(py, sides, warming)?;
-        let robot = self.engines.robot();
-        let inverse = py.detach(|| self.inverse.get_or_init(|| Inverse::new(robot)));
-        let inverse = inverse.as_ref().map_err(|why| PyValueError::new_err(why.clone()))?;
+        let mut given = self.given_beside(py, sides, warming)?;
+        given.elbow_angle = elbow_angle;
+        let found = || -> Result<Arc<Inverse>, String> {
+            let mut known = self.inverse.lock().unwrap_or_else(PoisonError::into_inner);
+            if let Some(inverse) = known.get(&kept) {
+                return Ok(Arc::clone(inverse));
+            }
+            let inverse = Arc::new(Inverse::new(self.engines.robot(), kept.as_deref())?);
+            known.insert(kept.clone(), Arc::clone(&inverse));
+            Ok(inverse)
+        };
+        let inverse = py.detach(found).map_err(PyValueError::new_err)?;
         inverse.found(py, pose, near, (wrench, &given))
     }
 
@@ -356,7 +367,7 @@ impl Arm {
             let decided = self.source.refuse_undecided("evaluate", &whole, &at);
             decided.map_err(|failure| work::error(py, &failure))?;
         }
-        Ok(Given { sides, warming: warming.unwrap_or_default() })
+        Ok(Given { sides, warming: warming.unwrap_or_default(), ..Given::default() })
     }
 }
 

@@ -5,7 +5,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use rayon::prelude::*;
 use stiffarm_codegen::derive::{AnyArm, AnyBranch, Given, any_arm};
-use stiffarm_codegen::robot::{ClosedForm, Refused, Robot};
+use stiffarm_codegen::robot::{ClosedForm, Family, Refused, Robot};
 use stiffarm_kernels::Pose;
 
 use crate::arrays::{lead, numbers, shape};
@@ -27,14 +27,16 @@ pub type Found<'py> = (
 );
 
 impl Inverse {
-    /// Of a robot as kernels are made of it.
+    /// Of a robot as kernels are made of it, with this given of seven joints where it is chosen.
     ///
     /// # Errors
     /// What stands in the way of a closed form, in words.
-    pub fn new(robot: &Robot) -> Result<Inverse, String> {
-        let form = robot.nearest_closed_form();
-        let form = form.map_err(|Refused { message, help }| format!("{message}: {help}"))?;
-        Ok(Inverse { arm: any_arm(robot, form), form, dof: robot.dof() })
+    pub fn new(robot: &Robot, given: Option<&str>) -> Result<Inverse, String> {
+        let mut robot = robot.clone();
+        let refused = |Refused { message, help }| format!("{message}: {help}");
+        given.map_or(Ok(()), |given| robot.give(given)).map_err(refused)?;
+        let form = robot.nearest_closed_form().map_err(refused)?;
+        Ok(Inverse { arm: any_arm(&robot, form), form, dof: robot.dof() })
     }
 
     /// Every branch at poses, homogeneous matrices; readings `near`, one for all or one for each; the loaded arm where there is a
@@ -72,17 +74,17 @@ impl Inverse {
                 }
                 near.try_readonly()?.as_slice()?.to_vec()
             }
-            None => match self.form.given {
-                None => vec![0.0; self.dof],
-                Some(joint) => {
+            None => {
+                let elbow = self.form.family == Family::ElbowAngle && given.elbow_angle.is_none();
+                let kept = self.form.given.map(|joint| format!("joint {}", joint + 1));
+                if let Some(kept) = kept.or_else(|| elbow.then(|| "the elbow angle".to_owned())) {
                     return Err(PyValueError::new_err(format!(
-                        "near: found none, and the pose leaves one of {} joints free: every branch has joint {} as near \
-                         has it",
-                        self.dof,
-                        joint + 1
+                        "near: found none, and the pose leaves one of {} joints free: every branch has {kept} as near has it",
+                        self.dof
                     )));
                 }
-            },
+                vec![0.0; self.dof]
+            }
         };
         let matrices = poses.try_readonly()?.as_slice()?.to_vec();
         for (name, values) in [("pose", &matrices), ("near", &near)] {

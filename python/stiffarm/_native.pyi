@@ -91,6 +91,8 @@ class Arm:
         wrench: Optional[Sequence[float]] = None,
         sides: Optional[ArrayLike] = None,
         warming: Optional[float] = None,
+        kept: Optional[str] = None,
+        elbow_angle: Optional[float] = None,
     ) -> tuple[NDArray[numpy.float64], NDArray[numpy.float64], NDArray[numpy.float64], NDArray[numpy.bool_], list[str]]: ...
     def evaluate(
         self,

@@ -128,16 +128,23 @@ class Arm(_native.Arm, Outputs):
         wrench: Optional[Sequence[float]] = None,
         sides: Optional[ArrayLike] = None,
         warming: Optional[float] = None,
+        given: Union[None, int, str] = None,
+        elbow_angle: Optional[float] = None,
     ) -> Branches:
         """Every branch of the inverse kinematics: the readings at which the tool stands at a pose.
 
         `pose` is (4, 4) or (batch, 4, 4), as :meth:`pose` returns it; `near` (n,) or (batch, n) are readings: each joint comes by whole
         turns as near to them as its limits allow, a joint that the pose leaves free stays there, and of seven joints the last one (or
         the first) has its value from there in every branch. With a `wrench` (6,) they are set-points of the arm that gives under it
-        and its weights. An arm without a closed form near its table is a ``ValueError`` that says what stands in the way.
+        and its weights. `given` chooses what of seven joints is given: a joint by its name or number from 1, or ``"elbow_angle"`` of an
+        arm with a spherical shoulder and wrist, rad: that of `near`, or `elbow_angle`. Where no table with a closed form is near, six
+        joints are searched for every solution: what is none of sixteen has an infinite distance. An arm without either is a
+        ``ValueError`` that says what stands in the way.
         """
         load = None if wrench is None else [float(each) for each in wrench]
-        return Branches(*self.branches(pose, near, load, sides, warming))
+        kept = "elbow_angle" if given is None and elbow_angle is not None else given
+        what = None if kept is None else str(kept)
+        return Branches(*self.branches(pose, near, load, sides, warming, what, elbow_angle))
 
     #: Its short name.
     regressor = Outputs.torque_regressor

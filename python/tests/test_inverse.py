@@ -46,6 +46,31 @@ def test_of_seven_joints_one_is_given():
         assert (arm.inverse_kinematics(arm.pose(q), near=q).q[:, 6] == last).all()
 
 
+def test_the_elbow_stands_at_its_angle():
+    arm = stiffarm.Arm.load("iiwa14")
+    q = numpy.array([0.3, 0.7, -0.2, 1.1, 0.4, 0.9, 0.1])
+    pose = arm.pose(q)
+    same = arm.inverse_kinematics(pose, near=q, given="elbow_angle")
+    assert numpy.abs(same.nearest(q) - q).max() < 1e-9
+    for angle in (-0.4, 0.7):
+        other = arm.inverse_kinematics(pose, near=q, elbow_angle=angle)
+        assert other.reached().any() and numpy.abs(arm.pose(other.q) - pose).max() < 1e-9
+        again = arm.inverse_kinematics(pose, near=other.nearest(q), given="elbow_angle")
+        assert numpy.abs(again.nearest(q) - other.nearest(q)).max() < 1e-9
+    with pytest.raises(ValueError, match="every branch has the elbow angle"):
+        arm.inverse_kinematics(pose, given="elbow_angle")
+    with pytest.raises(ValueError, match="axes 5, 6, 7 do not meet"):
+        stiffarm.Arm.load("panda").inverse_kinematics(pose, elbow_angle=0.1)
+
+
+def test_a_joint_is_given_and_the_others_are_searched():
+    arm = stiffarm.Arm.load("panda")
+    q = numpy.array([0.1, 0.2, 0.3, -1.5, 0.2, 1.6, 0.4])
+    found = arm.inverse_kinematics(arm.pose(q), near=q, given=3)
+    assert found.q.shape == (16, 7) and found.bits == []
+    assert (found.q[:, 2] == q[2]).all() and numpy.abs(found.nearest(q) - q).max() < 1e-9
+
+
 def test_a_load_moves_the_set_points():
     arm = stiffarm.Arm.load("kuka_kr240")
     q = numpy.array([0.1, 0.9, -1.2, 0.4, 0.8, 0.0])

@@ -1,9 +1,9 @@
 //! The inverse kinematics in C: the bits of the Rust kernels, of tables with a closed form and of one near it.
 
-use stiffarm::kernels::{Inverse, Pose, SetPoints, Solutions, has};
+use stiffarm::kernels::{ElbowAngle, Inverse, Pose, SetPoints, Solutions, has};
 use stiffarm::robot;
 use stiffarm_codegen::emit::{Precision, Sines};
-use stiffarm_codegen::robot::{Robot, Wanted};
+use stiffarm_codegen::robot::{Family, Robot, Wanted};
 use stiffarm_draws::Draws;
 
 use crate::compiler::{Folder, compile, run, with_each_compiler};
@@ -21,6 +21,10 @@ robot! { mod ur10 from "robots/arms/ur10.toml"; outputs: pose, inverse_kinematic
 robot! { mod calibrated from "tests/data/calibrated_ur10.toml"; outputs: pose, inverse_kinematics; }
 robot! { mod panda from "robots/arms/panda.toml"; outputs: pose, inverse_kinematics; }
 robot! { mod iiwa14 from "robots/arms/iiwa14.toml"; outputs: pose, inverse_kinematics; }
+robot! {
+    mod elbow from "robots/arms/iiwa14.toml";
+    outputs: pose, inverse_kinematics given elbow_angle;
+}
 robot! { mod stanford from "robots/arms/stanford.toml"; outputs: pose, inverse_kinematics; }
 robot! { mod plane from "robots/arms/bicchi_3r.toml"; outputs: pose, inverse_kinematics; }
 robot! { mod general from "tests/data/general.toml"; outputs: pose, inverse_kinematics; }
@@ -44,15 +48,27 @@ mod loaded {
         plane "robots/arms/bicchi_3r.toml"
         calibrated "tests/data/calibrated_kuka.toml"
     }
+    robot! {
+        pub mod elbow from "robots/arms/iiwa14.toml";
+        outputs: pose, jacobian, deflection_with_gravity, inverse_kinematics given elbow_angle;
+    }
 }
 
 const OUTPUTS: [&str; 4] = ["pose", "inverse_kinematics", "jacobian", "deflection_with_gravity"];
 
+/// The same with the elbow's angle given.
+const WITH_ELBOW: [&str; 4] =
+    ["pose", "inverse_kinematics given elbow_angle", "jacobian", "deflection_with_gravity"];
+
+/// That angle where it is told, rad.
+const ANGLE: f64 = 0.5;
+
 /// Reads joint values, a pose and a wrench as bits, prints all branches as bits.
-fn program(function: &str, given: &str, [joints, branches]: [usize; 2]) -> String {
+fn program(function: &str, (given, elbow): (&str, bool), [joints, branches]: [usize; 2]) -> String {
     let (pose, load, all) = (joints, joints + 12, joints + 18);
     let load = match function {
         "set_points" => format!(", &x[{load}]"),
+        _ if elbow => format!(", {ANGLE:?}"),
         _ => String::new(),
     };
     let values = joints * branches;
@@ -119,7 +135,7 @@ fn compiled(compiler: &str, id: &str, outputs: &[&str]) -> Folder {
     let near = !robot.is_as_its_table() || robot.closed_form().is_err();
     let function = match outputs.len() {
         2 if near => "closed_form",
-        2 => "inverse_kinematics",
+        2 | 3 => "inverse_kinematics",
         _ => "set_points",
     };
     let given = if robot.beyond.takes_sides() { ", sides" } else { "" };
@@ -130,7 +146,8 @@ fn compiled(compiler: &str, id: &str, outputs: &[&str]) -> Folder {
     }
     let form = robot.inverse_kinematics.expect("it was asked for");
     let size = [robot.dof(), form.branches()];
-    folder.write("main.c", &program(function, given, size));
+    let elbow = form.family == Family::ElbowAngle;
+    folder.write("main.c", &program(function, (given, elbow), size));
     compile(compiler, &folder, &["-O2", "arm.c", "main.c", "-o", "branches", "-lm"]);
     folder
 }
@@ -192,8 +209,18 @@ fn branches_are_the_rust_kernels_bits(compiler: &str) {
     check!(puma560::Robot, "robots/arms/puma560.toml");
     check!(ur10::Robot, "robots/arms/ur10.toml");
     check!(calibrated, "tests/data/calibrated_ur10.toml");
+    check(
+        compiler,
+        (&calibrated, "tests/data/calibrated_ur10.toml", &OUTPUTS[..3]),
+        |pose, near, _| calibrated.inverse_kinematics(pose, near),
+    );
     check!(panda::Robot, "robots/arms/panda.toml");
     check!(iiwa14::Robot, "robots/arms/iiwa14.toml");
+    check(
+        compiler,
+        (&elbow::Robot, "robots/arms/iiwa14.toml", &WITH_ELBOW[..2]),
+        |pose, near, _| elbow::Robot.closed_form_at(pose, near, ANGLE),
+    );
     check!(stanford::Robot, "robots/arms/stanford.toml");
     check!(plane::Robot, "robots/arms/bicchi_3r.toml");
     check!(general::Robot, "tests/data/general.toml");
@@ -213,4 +240,8 @@ fn set_points_are_the_rust_kernels_bits(compiler: &str) {
     check!(loaded::panda::Robot, "robots/arms/panda.toml");
     check!(loaded::plane::Robot, "robots/arms/bicchi_3r.toml");
     check!(calibrated, "tests/data/calibrated_kuka.toml");
+    let elbow = loaded::elbow::Robot;
+    check(compiler, (&elbow, "robots/arms/iiwa14.toml", &WITH_ELBOW), |pose, near, wrench| {
+        elbow.set_points(pose, near, wrench)
+    });
 }

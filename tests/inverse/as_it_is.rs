@@ -123,7 +123,8 @@ impl<const N: usize> Arm<N> {
         let whole = file.with_effects().expect("effects of kernels");
         let form = whole.nearest_closed_form().expect("a closed form is near");
         let sides: Vec<i8> = (0..N).map(|_| if draws.chance(0.5) { 1 } else { -1 }).collect();
-        let given = Given { sides: sides.iter().map(|s| f64::from(*s)).collect(), warming: 0.0 };
+        let of_each = sides.iter().map(|s| f64::from(*s)).collect();
+        let given = Given { sides: of_each, ..Given::default() };
         let kernels = AsItIs::new(&whole, form, given);
         Arm { text: file.to_toml(), kernels, table, known, sides, size: size(file) }
     }

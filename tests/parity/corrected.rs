@@ -79,7 +79,8 @@ impl Corrected {
             warming: Some(warming),
             ..Situation::under(Vector6::new(f.x, f.y, f.z, m.x, m.y, m.z))
         };
-        let given = Given { sides: sides.into_iter().map(f64::from).collect(), warming };
+        let sides = sides.into_iter().map(f64::from).collect();
+        let given = Given { sides, warming, ..Given::default() };
         Drawn { state, wrench, at, given }
     }
 

@@ -28,12 +28,14 @@ Examples:
   stiffarm eval better.toml --q 0,0.5,0,0,0,0 --sides 1,-1,1,1,1,-1 --warming 8
   stiffarm eval kuka_kr240 --pose 1.6,0.2,1.1,0,90deg,0 --wrench 0,0,-2000,0,0,0
   stiffarm eval panda --pose 0.4,0.1,0.5,180deg,0,0 --q 0,0,0,-90deg,0,90deg,45deg
+  stiffarm eval iiwa14 --pose 0.5,0.1,0.6,180deg,0,0 --given elbow_angle=20deg
   stiffarm eval lin_planar_symbolic --set L1=24in … --q 0,0 --json - | jq .deflection
 
 --pose asks for the inverse: every branch of the arm's closed form, or of the nearest table's with the steps from
 there to the arm of the file, its effects and (with --wrench or --gravity) what it gives included; what a
 branch misses the pose by; and which are within the limits. Of seven joints the pose leaves one free: every
-branch has the last one (or the first) as --q has it.";
+branch has the last one (or the first) as --q has it, or what --given names. Where no table with a closed form is
+near, every solution is searched for.";
 
 /// Pose, Jacobian, stiffness and deflection at one posture under one load
 #[derive(clap::Args)]
@@ -49,6 +51,10 @@ pub struct Args {
     /// of the inverse kinematics is told, by whole turns near --q
     #[arg(long, value_name = "x,y,z,rx,ry,rz", allow_hyphen_values = true)]
     pose: Option<String>,
+    /// Of seven joints what every branch has as --q has it, or as it is told here: a joint by its name or number, or
+    /// elbow_angle of an arm with a spherical shoulder and wrist [default: the last joint, or the first]
+    #[arg(long, value_name = "WHAT[=VALUE]", requires = "pose")]
+    given: Option<String>,
     /// Load on the tool: base axes, at the tool origin; N and N·m, or with a unit: 50lbf
     #[arg(long, value_name = "fx,fy,fz,mx,my,mz", allow_hyphen_values = true)]
     wrench: Option<String>,
@@ -144,7 +150,7 @@ fn given_beside(args: &Args, source: &Source, arm: &Arm) -> Result<Given, Failur
     };
     source.refuse_undecided("eval", &Whole { arm, known: &source.known }, &at)?;
     let sides = args.sides.iter().flatten().map(|side| f64::from(*side)).collect();
-    Ok(Given { sides, warming: args.warming.unwrap_or_default() })
+    Ok(Given { sides, warming: args.warming.unwrap_or_default(), ..Given::default() })
 }
 
 fn joints(source: &Source) -> String {

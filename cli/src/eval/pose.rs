@@ -3,7 +3,7 @@
 use nalgebra::{Isometry3, UnitQuaternion, Vector3, Vector6};
 use serde::Serialize;
 use stiffarm_codegen::derive::Given;
-use stiffarm_codegen::robot::Motion;
+use stiffarm_codegen::robot::{Family, Motion};
 use stiffarm_gap::measurement::Dimension;
 
 use super::Args;
@@ -16,13 +16,32 @@ use crate::terminal::text::{Align, bold, dim, indented, minus, short, table};
 /// Every branch.
 #[derive(Serialize)]
 pub(super) struct Inverse {
-    /// The joint, from 1, whose value is that of `--q` in every branch.
+    /// What every branch has as `--q` or `--given` has it.
     #[serde(skip_serializing_if = "Option::is_none")]
-    given: Option<usize>,
+    given: Option<Kept>,
     solutions: Vec<Branch>,
     /// What the bits of a branch's number choose, from the highest.
     #[serde(skip)]
     bits: Vec<&'static str>,
+}
+
+/// What is given of seven joints.
+#[derive(Clone, Copy, Serialize)]
+#[serde(untagged)]
+enum Kept {
+    /// A joint, from 1.
+    Joint(usize),
+    /// The elbow's angle, by its name.
+    Elbow(&'static str),
+}
+
+impl std::fmt::Display for Kept {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Kept::Joint(joint) => write!(f, "joint {joint}"),
+            Kept::Elbow(_) => f.write_str("the elbow angle"),
+        }
+    }
 }
 
 /// One branch: which of two each of shoulder, elbow and wrist has (0 where the arm has but one), its set-points, what they
@@ -71,23 +90,46 @@ pub(super) fn inverse(
     (pose, near): (&Isometry3<f64>, &[f64]),
     (wrench, given): (&Vector6<f64>, &Given),
 ) -> Result<Inverse, Failure> {
-    let arm = Branches::new(source, args.gravity)?;
-    let given_joint = arm.form.given.map(|joint| joint + 1);
-    if let (Some(joint), true) = (given_joint, near.is_empty()) {
-        return Err(Failure::with_help(
-            format!(
-                "--pose: found no --q, and the pose leaves one of {} joints free",
-                source.robot.dof()
-            ),
-            format!("give --q q1,q2,…: every branch has joint {joint} as it has it"),
-        ));
+    let told = args.given.as_ref().map(|text| {
+        text.split_once('=').map_or((text.as_str(), None), |(what, value)| (what, Some(value)))
+    });
+    let arm = Branches::new(source, args.gravity, told.map(|(what, _)| what))?;
+    let elbow = arm.form.family == Family::ElbowAngle;
+    let kept = arm.form.given.map(|joint| Kept::Joint(joint + 1));
+    let kept = kept.or_else(|| elbow.then_some(Kept::Elbow("elbow_angle")));
+    let (mut near, mut given) = (near.to_vec(), given.clone());
+    match (told.and_then(|(_, value)| value), kept) {
+        (Some(value), Some(_)) => {
+            let kind = arm.form.given.map_or(Dimension::Angle, |joint| source.readings()[joint]);
+            let value =
+                quantity::list("--given", value, &[kind], "one value stands behind the `=`")?[0];
+            near.resize(source.robot.dof(), 0.0);
+            match arm.form.given {
+                Some(joint) => near[joint] = value,
+                None => given.elbow_angle = Some(value),
+            }
+        }
+        (None, Some(kept)) if near.is_empty() => {
+            return Err(Failure::with_help(
+                format!(
+                    "--pose: found no --q, and the pose leaves one of {} joints free",
+                    source.robot.dof()
+                ),
+                format!(
+                    "give --q q1,q2,…: every branch has {kept} as it has it; or --given WHAT=VALUE"
+                ),
+            ));
+        }
+        _ => {}
     }
     let loaded = (args.gravity || args.wrench.is_some()).then_some(wrench);
     let bits = arm.form.bits();
     let joints = &source.robot.joints;
     let solutions: Vec<Branch> = arm
-        .at(pose, near, (loaded, given))
+        .at(pose, &near, (loaded, &given))
         .into_iter()
+        // A search tells those that it has found.
+        .filter(|found| !arm.form.is_search() || found.distance.is_finite())
         .map(|found| {
             let side = |name: &str| {
                 let at = bits.iter().rev().position(|bit| *bit == name);
@@ -119,7 +161,7 @@ pub(super) fn inverse(
             stiffarm_kernels::Unstable.to_string(),
             "check the load, its unit and the stiffness",
         )),
-        false => Ok(Inverse { given: given_joint, solutions, bits }),
+        false => Ok(Inverse { given: kept, solutions, bits }),
     }
 }
 
@@ -170,7 +212,7 @@ pub(super) fn screen(source: &Source, result: &Inverse) -> String {
         .collect();
     let slides = joints.iter().any(|joint| joint.motion == Motion::Prismatic);
     let unit = if slides { "degrees and mm" } else { "degrees" };
-    let held = result.given.map_or_else(String::new, |joint| format!(", joint {joint} as given"));
+    let held = result.given.map_or_else(String::new, |kept| format!(", {kept} as given"));
     format!(
         "{}  {}\n\n{}\n{reached} of {} branches reach the pose, {allowed} within the limits\n",
         bold(&source.robot.name),

@@ -23,23 +23,24 @@ pub struct Branches {
 }
 
 impl Branches {
-    /// Those of a robot file.
+    /// Those of a robot file, with this given of seven joints where it is chosen ([`give`](stiffarm_codegen::robot::Robot::give)).
     ///
     /// # Errors
-    /// [`Failure`]: an effect of which no kernel can be made, or no closed form near the table.
-    pub fn new(source: &Source, weighs: bool) -> Result<Branches, Failure> {
+    /// [`Failure`]: an effect of which no kernel can be made, no such joint, or no closed form near the table.
+    pub fn new(source: &Source, weighs: bool, given: Option<&str>) -> Result<Branches, Failure> {
         let mut robot = source.for_kernels()?;
         if !weighs {
             robot.gravity = Default::default();
         }
         let refused = |Refused { message, help }| Failure::with_help(message, help);
+        given.map_or(Ok(()), |given| robot.give(given)).map_err(refused)?;
         let form = robot.nearest_closed_form().map_err(refused)?;
         Ok(Branches { arm: any_arm(&robot, form), form, base: source.arm()?.base })
     }
 
     /// Those of a robot file that has some.
     pub fn of(source: &Source) -> Option<Branches> {
-        Branches::new(source, true).ok()
+        Branches::new(source, true, None).ok()
     }
 
     /// Every branch at a pose, those of the loaded arm where a wrench is given; joints that are free stay at `near`.
@@ -67,7 +68,7 @@ impl Branches {
         let Some(rotation) = target.rotation else { return Vec::new() };
         let pose = Isometry3::from_parts(target.position.into(), rotation);
         let sides = at.direction.iter().flatten().map(|side| f64::from(*side)).collect();
-        let given = Given { sides, warming: at.warming.unwrap_or_default() };
+        let given = Given { sides, warming: at.warming.unwrap_or_default(), ..Given::default() };
         let found = self.at(&pose, &[], (Some(&at.load), &given)).into_iter();
         // Near enough for the search to end there: what bends beside the joints is of first order here.
         let reached = found.filter(|b| b.within && b.distance <= 1e-2 && b.tilt <= 1e-2);

@@ -19,7 +19,7 @@ mod ways;
 pub(crate) use chain::{Chain, Levers, Point, ROW, tool_offsets, twists};
 pub use displacements::{COMPONENTS, Displacements};
 pub use flexible::{Form, flexible};
-pub use inverse::{AnyArm, AnyBranch, AsItIs, any_arm, gives, inverse, steps};
+pub use inverse::{AnyArm, AnyBranch, AsItIs, any_arm, elbow_angle, gives, inverse, steps};
 pub(crate) use outputs::derived;
 pub use own::{Held, Own, OwnInput, Quantity, Size};
 pub use passes::Passes;

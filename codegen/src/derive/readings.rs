@@ -30,6 +30,8 @@ pub struct Given {
     pub sides: Vec<f64>,
     /// How much warmer the arm is than when it is as its table says, K.
     pub warming: f64,
+    /// The elbow's angle, rad, where the inverse kinematics is given it; `None` is that of the readings.
+    pub elbow_angle: Option<f64>,
 }
 
 impl Readings {

@@ -3,18 +3,23 @@
 use std::fmt::Write as _;
 use stiffarm_kernels::{Form, Output};
 
-use crate::derive::{COMPONENTS, Displacements, Form as Flexible, Program, derive, flexible};
+use crate::derive::{
+    COMPONENTS, Displacements, Form as Flexible, Held, Program, Quantity, Size, derive, flexible,
+    inverse,
+};
 use crate::ir::{Angle, Constants, Function, Operation, Solve, Statement, Style, Term};
 use crate::number::Number;
 use crate::robot::Robot;
 
-/// A document with the closed form of each of `outputs`: what is shared first, then every entry that
-/// is not structurally zero. Rows and columns count from 1, as on paper.
+/// A document with the closed form of each of `outputs`, and of the inverse kinematics where the arm is asked for it: what
+/// is shared first, then every entry that is not structurally zero. Rows and columns count from 1, as on paper.
 pub fn latex(robot: &Robot, outputs: &[Output]) -> String {
     let sections = outputs
         .iter()
         .map(|output| section(derive(robot, &[*output]), &output.name().replace('_', " ")));
-    document(robot, sections)
+    let form = robot.inverse_kinematics.filter(|form| !form.is_search());
+    let inverse = form.map(|form| section(inverse(robot, form), "inverse kinematics"));
+    document(robot, sections.chain(inverse))
 }
 
 /// A document with the flexible kinematics of a table (Jweeg & Al-Khafaji 2012, eq. 20) in each of
@@ -41,11 +46,12 @@ fn document(robot: &Robot, sections: impl Iterator<Item = String>) -> String {
 }
 
 fn section(program: Program, title: &str) -> String {
-    // Functions of one's own are not written here.
-    let Some(output) = program.blocks[0].held.output() else { return String::new() };
     let function = Function::new(program, &mut Constants::written_in_place(), false);
-    let frame = function.program.frame();
-    let mut out = format!("\\subsection*{{{title}}}\nWorked out in {frame}.\n");
+    let mut out = format!("\\subsection*{{{title}}}\n");
+    let _ = match &function.program.own {
+        Some(own) => writeln!(out, "{}.", escaped(&own.sentence.replace('`', ""))),
+        None => writeln!(out, "Worked out in {}.", function.program.frame()),
+    };
     for Angle { suffix, sum, .. } in function.angles.iter().filter(|angle| has_offset(&angle.sum)) {
         let sum = sum.print(&Latex).replace(" + ", "+").replace(" - ", "-");
         let _ = writeln!(out, "$s_{{{suffix}}}=\\sin({sum})$, $c_{{{suffix}}}=\\cos({sum})$.");
@@ -56,12 +62,19 @@ fn section(program: Program, title: &str) -> String {
             Statement::Let(name, value) => {
                 lines.push(format!("{} &= {}", Latex.local(name), value.print(&Latex)));
             }
-            Statement::Store { entry, value, .. } => {
-                let place = place(output, function.program.dof, *entry);
+            Statement::Store { block, entry, value } => {
+                let place = match &function.blocks()[*block].held {
+                    Held::Output(output) => place(*output, function.program.dof, *entry),
+                    Held::Own(quantity) => own_place(quantity, *entry),
+                };
                 lines.push(format!("{place} &= {}", value.print(&Latex)));
             }
             Statement::Solve(solve) => lines.extend(system(solve)),
-            Statement::SinCos(_) => {}
+            Statement::SinCos(angles) => lines.extend(angles.iter().flat_map(|angle| {
+                let Angle { suffix, sum, .. } = angle;
+                let sum = sum.print(&Latex);
+                ["sin", "cos"].map(|name| format!("{}_{{{suffix}}} &= \\{name}({sum})", &name[..1]))
+            })),
         }
     }
     if lines.is_empty() {
@@ -138,6 +151,21 @@ fn place(output: Output, n: usize, entry: usize) -> String {
         Form::Stack => {
             let each = output.columns().each().count(n);
             format!("[{symbol}_{{{}}}]_{{{i}{comma}{}}}", column / each + 1, column % each + 1)
+        }
+    }
+}
+
+/// An entry of a result of the inverse.
+fn own_place(quantity: &Quantity, entry: usize) -> String {
+    let name = match quantity.name.len() {
+        1 => quantity.name.clone(),
+        _ => format!("\\mathit{{{}}}", quantity.name),
+    };
+    match quantity.size {
+        Size::Scalar => name,
+        Size::Vector(_) => format!("{name}^{{({})}}", entry + 1),
+        Size::Matrix { rows, .. } => {
+            format!("{name}_{{{}}}^{{({})}}", entry % rows + 1, entry / rows + 1)
         }
     }
 }

@@ -44,10 +44,10 @@ use crate::robot::Robot;
 /// How a command asks for the outputs of a robot, where they are not all of its tool's.
 fn asked(robot: &Robot) -> String {
     let names = robot.asked().join(",");
-    match (names.is_empty(), robot.at.is_empty()) {
-        (true, _) => String::new(),
-        (false, true) => format!(" --outputs {names}"),
-        // A name behind `at` makes spaces.
-        (false, false) => format!(" --outputs '{names}'"),
+    match names.as_str() {
+        "" => String::new(),
+        // What stands behind `at` and `given`.
+        names if names.contains(' ') => format!(" --outputs '{names}'"),
+        names => format!(" --outputs {names}"),
     }
 }

@@ -6,8 +6,8 @@ use super::constants::Constants;
 use super::function::Function;
 use super::posture::{Plain, Posture};
 use super::readings::Readings;
-use crate::derive::{Program, derive_at, derive_each, gives, inverse};
-use crate::robot::Robot;
+use crate::derive::{Program, derive_at, derive_each, elbow_angle, gives, inverse};
+use crate::robot::{Family, Robot};
 
 /// The functions of a robot and what they share.
 pub(crate) struct Module<'r> {
@@ -35,10 +35,13 @@ impl<'r> Module<'r> {
     pub fn new(robot: &'r Robot, own: &[&Program], fused: bool) -> Self {
         let outputs = robot.generated();
         let programs = derive_each(robot, &sets(&outputs)).into_iter();
-        let inverse = robot.inverse_kinematics.map(|form| inverse(robot, form));
+        let form = robot.inverse_kinematics.filter(|form| !form.is_search());
+        let inverse = form.map(|form| inverse(robot, form));
+        let elbow = form.filter(|form| form.family == Family::ElbowAngle);
+        let elbow = elbow.map(|form| elbow_angle(robot, form));
         let gives = robot.has_set_points().then(|| gives(robot));
         let own = own.iter().map(|program| (*program).clone());
-        let programs = programs.chain(inverse).chain(gives).chain(own).collect();
+        let programs = programs.chain(inverse).chain(elbow).chain(gives).chain(own).collect();
         let tool: (_, _, Vec<Program>) = (None, outputs, programs);
         let places = robot.places().into_iter().map(|(place, outputs)| {
             let at = |output: &Output| derive_at(robot, place, *output);

@@ -12,7 +12,7 @@ use crate::emit::{
 };
 use crate::expr::term::Mistake;
 use crate::out_dir::{BuildError, write_to_out_dir};
-use crate::robot::{CLOSED_FORM, GIVES, INVERSE_KINEMATICS, Output, Robot};
+use crate::robot::{CLOSED_FORM, ELBOW_ANGLE, GIVES, INVERSE_KINEMATICS, Output, Robot};
 
 /// An arm's module with functions of one's own.
 pub struct Module<'r> {
@@ -37,7 +37,7 @@ impl<'r> Module<'r> {
         formulas: impl Fn(&Formulas<'_>),
     ) -> Result<Self, Refused> {
         let known = Output::EACH.iter().any(|output| output.name() == name)
-            || [INVERSE_KINEMATICS, CLOSED_FORM, GIVES].contains(&name)
+            || [INVERSE_KINEMATICS, CLOSED_FORM, ELBOW_ANGLE, GIVES].contains(&name)
             || self.functions.iter().any(|function| function.name() == name);
         if known {
             let text = "found the name of another function of the module, expected a new one";

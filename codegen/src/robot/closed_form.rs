@@ -3,15 +3,26 @@
 //! Only what is exactly zero counts: an axis that misses another by a micrometre does not meet it. Such an arm has the closed
 //! form of the [nearest](super::nearest) table, and steps behind it.
 
-use super::families::{Chain, family};
+use stiffarm_kernels::Axes;
+
+use super::families::{Chain, elbow_angle, family};
 use super::frames::Refused;
 use super::model::Robot;
 use super::sliding::Sliding;
 
+/// What is chosen to be given of seven joints, of which a pose leaves one free.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Redundancy {
+    /// The value of a joint, from 0.
+    Joint(usize),
+    /// The angle of the elbow about the line from shoulder to wrist.
+    ElbowAngle,
+}
+
 /// The closed form of an arm.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ClosedForm {
-    /// The joint, from 0, whose value is given: the last or the first of seven.
+    /// The joint, from 0, whose value is given: the last or the first of seven, or any where it is found by search.
     pub given: Option<usize>,
     /// Whether it is that of the arm read from tip to base.
     pub reversed: bool,
@@ -40,6 +51,14 @@ pub enum Family {
     },
     /// Two parallel axes place a point of the plane.
     TwoParallel,
+    /// Three axes that meet, an elbow, and three that meet, with [the elbow's angle](Redundancy::ElbowAngle) given.
+    ElbowAngle,
+    /// None: every solution of six axes is searched for, with the joint `third` of them, from 0, in the middle of
+    /// [the equations](stiffarm_kernels::Axes::search).
+    Search {
+        /// The joint, from 0.
+        third: usize,
+    },
 }
 
 /// What the first three axes of an arm with a wrist are.
@@ -97,6 +116,11 @@ impl ClosedForm {
                 }
             }
             Family::TwoParallel => "axes 1, 2 are parallel".to_owned(),
+            Family::ElbowAngle => {
+                "the elbow angle is given, axes 1, 2, 3 meet in a point, 5, 6, 7 in another"
+                    .to_owned()
+            }
+            Family::Search { .. } => "a search, not a closed form".to_owned(),
         };
         match self.given {
             Some(joint) => format!("joint {} is given, {shape}", joint + 1),
@@ -114,6 +138,8 @@ impl ClosedForm {
             Family::Wrist { behind, .. } => (true, true, behind == 3),
             Family::ThreeParallel { before, behind, .. } => (before, true, behind == 2),
             Family::TwoParallel => (false, true, false),
+            Family::ElbowAngle => (true, true, true),
+            Family::Search { .. } => (false, false, false),
         };
         let each = [("shoulder", shoulder), ("elbow", elbow), ("wrist", wrist)];
         each.into_iter().filter(|(_, has)| *has).map(|(name, _)| name).collect()
@@ -121,7 +147,15 @@ impl ClosedForm {
 
     /// The number of branches.
     pub fn branches(self) -> usize {
-        1 << self.bits().len()
+        match self.family {
+            Family::Search { .. } => Axes::<6>::MOST,
+            _ => 1 << self.bits().len(),
+        }
+    }
+
+    /// Whether its solutions are searched for.
+    pub fn is_search(self) -> bool {
+        matches!(self.family, Family::Search { .. })
     }
 
     /// The joints, from 0, that the closed form finds, of so many.
@@ -129,7 +163,7 @@ impl ClosedForm {
         match self.given {
             None => 0..dof,
             Some(0) => 1..dof,
-            Some(_) => 0..dof - 1,
+            Some(_) => 0..dof.saturating_sub(1),
         }
     }
 
@@ -138,6 +172,7 @@ impl ClosedForm {
         match self.family {
             Family::Wrist { behind, .. } => behind == 3,
             Family::ThreeParallel { behind, .. } => behind == 2,
+            Family::ElbowAngle | Family::Search { .. } => true,
             Family::TwoParallel => false,
         }
     }
@@ -163,9 +198,20 @@ impl Robot {
         }
         let n = self.dof();
         // Axes in general position take many more operations.
-        let form = |general: bool| match n {
-            2..=6 => self.form_of(0..n, None, general),
-            7 => self.form_of(0..6, Some(6), general).or_else(|last| {
+        let form = |general: bool| match (n, self.redundancy) {
+            (2..=6, None) => self.form_of(0..n, None, general),
+            (7, Some(Redundancy::ElbowAngle)) => {
+                let family = elbow_angle(&Chain::new(self, 0..7)).map_err(str::to_owned)?;
+                Ok(ClosedForm { given: None, reversed: false, family })
+            }
+            (7, Some(Redundancy::Joint(given @ 6))) => self.form_of(0..6, Some(given), general),
+            (7, Some(Redundancy::Joint(given @ 0))) => self.form_of(1..7, Some(given), general),
+            (7, Some(Redundancy::Joint(given))) => {
+                let number = given + 1;
+                Err(format!("with joint {number} given the other axes stand as that joint does"))
+            }
+            (2..=6, Some(_)) => Err(format!("a pose leaves none of {n} joints free to be given")),
+            (7, None) => self.form_of(0..6, Some(6), general).or_else(|last| {
                 self.form_of(1..7, Some(0), general).map_err(|first| {
                     format!("with joint 7 given, {last}; with joint 1 given, {first}")
                 })

@@ -111,6 +111,23 @@ impl Robot {
     }
 }
 
+/// Three axes that meet, an elbow off them, and three that meet.
+pub(super) fn elbow_angle(chain: &Chain) -> Result<Family, &'static str> {
+    let meet = |k: usize| chain.meets(k) && chain.meets(k + 1) && chain.offset(k + 1);
+    // What axis 4 turns, and what turns it.
+    let off =
+        |k: usize, d: usize| !chain.a[k - 1].is_zero() || !chain.offset(d) && !chain.parallel(k);
+    match () {
+        () if !chain.turns(1..=7) => Err("of an arm with prismatic joints no elbow angle is known"),
+        () if !meet(1) => Err("axes 1, 2, 3 do not meet in a point, and there is no elbow angle"),
+        () if !meet(5) => Err("axes 5, 6, 7 do not meet in a point, and there is no elbow angle"),
+        () if chain.offset(3) || !off(3, 3) || !off(4, 5) => {
+            Err("the elbow is where the shoulder or the wrist is, and has no angle")
+        }
+        () => Ok(Family::ElbowAngle),
+    }
+}
+
 /// What makes a closed form of a chain, with axes in general position or without.
 pub(super) fn family(chain: &Chain, general: bool) -> Result<Family, &'static str> {
     let n = chain.joints.len();

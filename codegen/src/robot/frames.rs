@@ -2,6 +2,7 @@
 
 use stiffarm_kernels::{Part, Side};
 
+use super::closed_form::Redundancy;
 use super::model::{At, Output, Robot};
 use super::names::no_module;
 use super::problem::{Place, Problem, Report};
@@ -9,6 +10,9 @@ use super::suggest::advice;
 
 /// The name of the inverse kinematics among outputs, and of its function where that is a closed form.
 pub(crate) const INVERSE_KINEMATICS: &str = "inverse_kinematics";
+
+/// What the inverse kinematics of seven joints is given in place of one of them, and the name of the function that tells it.
+pub(crate) const ELBOW_ANGLE: &str = "elbow_angle";
 
 /// The name of the closed form's function where it is that of another table.
 pub(crate) const CLOSED_FORM: &str = "closed_form";
@@ -30,19 +34,23 @@ pub struct Asked {
 pub enum Wanted {
     /// An output.
     Output(Asked),
-    /// The inverse kinematics.
-    InverseKinematics,
+    /// The inverse kinematics, with what is given of seven joints where that is chosen: a joint's name or number, or
+    /// `elbow_angle`.
+    InverseKinematics(Option<String>),
 }
 
 impl Wanted {
-    /// Reads `inverse_kinematics`, or what [`Asked::read`] does.
+    /// Reads `inverse_kinematics`, `inverse_kinematics given a3`, or what [`Asked::read`] does.
     ///
     /// # Errors
     /// As from [`Asked::read`].
     pub fn read(text: &str) -> Result<Wanted, Refused> {
-        match text.trim() {
-            INVERSE_KINEMATICS => Ok(Wanted::InverseKinematics),
-            output => Asked::read(output).map(Wanted::Output),
+        match text.split_whitespace().collect::<Vec<_>>()[..] {
+            [INVERSE_KINEMATICS] => Ok(Wanted::InverseKinematics(None)),
+            [INVERSE_KINEMATICS, "given", ref what @ ..] if !what.is_empty() => {
+                Ok(Wanted::InverseKinematics(Some(what.join(" "))))
+            }
+            _ => Asked::read(text).map(Wanted::Output),
         }
     }
 }
@@ -88,16 +96,40 @@ impl Robot {
     pub fn want(&mut self, wanted: &Wanted) -> Result<(), Refused> {
         match wanted {
             Wanted::Output(asked) => self.ask(asked),
-            Wanted::InverseKinematics => {
+            Wanted::InverseKinematics(given) => {
+                given.as_ref().map_or(Ok(()), |given| self.give(given))?;
                 self.inverse_kinematics = Some(self.nearest_closed_form()?);
                 Ok(())
             }
         }
     }
 
+    /// Has the inverse kinematics given something of seven joints: one by its name or its number from 1, or
+    /// `elbow_angle`.
+    ///
+    /// # Errors
+    /// [`Refused`] where the arm has no such joint.
+    pub fn give(&mut self, what: &str) -> Result<(), Refused> {
+        let number = what.parse().ok().filter(|k| (1..=self.dof()).contains(k));
+        let named = self.joints.iter().position(|joint| joint.name == what);
+        self.redundancy = match (what, named.or_else(|| number.map(|k| k - 1))) {
+            (ELBOW_ANGLE, None) => Some(Redundancy::ElbowAngle),
+            (_, Some(joint)) => Some(Redundancy::Joint(joint)),
+            (_, None) => {
+                let names = self.joints.iter().map(|joint| joint.name.as_str());
+                let names: Vec<&str> = names.chain([ELBOW_ANGLE]).collect();
+                let message =
+                    format!("the inverse kinematics is given `{what}`, which is no joint");
+                return Err(refused(message, advice(what, &names)));
+            }
+        };
+        Ok(())
+    }
+
     /// Has nothing generated but what is asked for from now on.
     pub fn want_nothing(&mut self) {
-        (self.outputs, self.at, self.inverse_kinematics) = (Vec::new(), Vec::new(), None);
+        (self.outputs, self.at) = (Vec::new(), Vec::new());
+        (self.inverse_kinematics, self.redundancy) = (None, None);
     }
 
     /// Adds an output to those that are generated. Where none is asked for at the tool, the tool has every one.
@@ -166,7 +198,12 @@ impl Robot {
         let at = places.flat_map(|(place, outputs)| {
             outputs.into_iter().map(move |output| format!("{} at {place}", output.name()))
         });
-        let inverse = self.inverse_kinematics.map(|_| INVERSE_KINEMATICS.to_owned());
+        let given = match self.redundancy {
+            Some(Redundancy::Joint(joint)) => format!(" given {}", joint + 1),
+            Some(Redundancy::ElbowAngle) => format!(" given {ELBOW_ANGLE}"),
+            None => String::new(),
+        };
+        let inverse = self.inverse_kinematics.map(|_| format!("{INVERSE_KINEMATICS}{given}"));
         tool.chain(inverse).chain(at).collect()
     }
 

@@ -20,6 +20,7 @@ mod payload;
 pub(crate) mod pi;
 pub(crate) mod problem;
 pub(crate) mod quantity;
+mod search;
 mod section;
 mod sliding;
 pub(crate) mod space;
@@ -33,11 +34,11 @@ pub use crate::frontends::tokens::{
 #[cfg(feature = "urdf")]
 pub use crate::frontends::urdf;
 pub use crate::schema::Symbol;
-pub use closed_form::{ClosedForm, Family, Position};
+pub use closed_form::{ClosedForm, Family, Position, Redundancy};
 pub use diagnostic::{FileError, Located, Warning};
 pub use dimension::Dimension;
 pub use frames::{Asked, Refused, Wanted};
-pub(crate) use frames::{CLOSED_FORM, GIVES, INVERSE_KINEMATICS};
+pub(crate) use frames::{CLOSED_FORM, ELBOW_ANGLE, GIVES, INVERSE_KINEMATICS};
 pub use model::{
     Angle, At, Beam, Convention, Drive, Effect, Entry, Frame, Joint, Marker, Motion, NamedFrame,
     Output, Payload, Quantity, Robot, Section, Spot, Value,

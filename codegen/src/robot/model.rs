@@ -6,7 +6,7 @@ use num_rational::Ratio;
 pub use stiffarm_kernels::{Convention, Motion, Output};
 
 use super::beyond::Beyond;
-use super::closed_form::ClosedForm;
+use super::closed_form::{ClosedForm, Redundancy};
 use super::nearest::STEPPED;
 use crate::number::Number;
 
@@ -43,6 +43,8 @@ pub struct Robot {
     pub outputs: Vec<Output>,
     /// The outputs that are generated of named frames and markers.
     pub at: Vec<At>,
+    /// What of seven joints its inverse kinematics is given, where that is chosen.
+    pub redundancy: Option<Redundancy>,
     /// The closed form of its inverse kinematics, where that is generated: its table's or the nearest table's.
     pub inverse_kinematics: Option<ClosedForm>,
 }
@@ -316,6 +318,7 @@ impl Default for Robot {
             payloads: Vec::new(),
             outputs: Vec::new(),
             at: Vec::new(),
+            redundancy: None,
             inverse_kinematics: None,
         }
     }

@@ -3,7 +3,7 @@
 
 use num_rational::Ratio;
 
-use super::closed_form::{ClosedForm, Family, Position};
+use super::closed_form::{ClosedForm, Family, Position, Redundancy};
 use super::frames::Refused;
 use super::model::{Angle, Motion, Output, Robot, Value};
 
@@ -30,20 +30,25 @@ const POSITIONS: [Position; 4] = [
 ];
 
 impl Robot {
-    /// The closed form of its table, or else, where that has numbers alone, of the nearest table which has one.
+    /// The closed form of its table, or else, where that has numbers alone, of the nearest table which has one, or else a
+    /// search.
     ///
     /// # Errors
-    /// [`Refused`] where no table with a closed form is near: what stands in the way of its own.
+    /// [`Refused`] where no table with a closed form is near and a search does not do: what stands in the way of its own.
     pub fn nearest_closed_form(&self) -> Result<ClosedForm, Refused> {
         let refused = match self.closed_form() {
             Ok(form) => return Ok(form),
             Err(refused) => refused,
         };
-        let given: &[Option<usize>] = match self.dof() {
-            6 => &[None],
-            7 => &[Some(6), Some(0)],
+        let given: &[Option<usize>] = match (self.dof(), self.redundancy) {
+            (6, None) => &[None],
+            (7, None) => &[Some(6), Some(0)],
+            (7, Some(Redundancy::Joint(0))) => &[Some(0)],
+            (7, Some(Redundancy::Joint(6))) => &[Some(6)],
             _ => &[],
         };
+        let elbow = ClosedForm { given: None, reversed: false, family: Family::ElbowAngle };
+        let elbow = (self.redundancy == Some(Redundancy::ElbowAngle)).then_some(elbow);
         if !self.symbols().is_empty() {
             return Err(refused);
         }
@@ -61,13 +66,20 @@ impl Robot {
             let mut inner = self.joints[form.inner(self.dof())].iter();
             inner.all(|joint| joint.motion == Motion::Revolute)
         };
-        let forms = forms.filter(turns);
+        let forms = forms.chain(elbow.filter(|_| self.dof() == 7)).filter(turns);
         let near = forms.filter_map(|form| {
             let table = self.nearest(form);
             (table.closed_form() == Ok(form)).then(|| (self.off(&table), form))
         });
         let nearest = near.min_by(|(a, _), (b, _)| a.total_cmp(b));
-        nearest.filter(|(off, _)| *off < OFF).map(|(_, form)| form).ok_or(refused)
+        let nearest = nearest.filter(|(off, _)| *off < OFF).map(|(_, form)| form);
+        match nearest.map_or_else(|| self.searched(), Ok) {
+            Ok(form) => Ok(form),
+            Err(Some(why)) => {
+                Err(Refused { message: format!("{}; {why}", refused.message), ..refused })
+            }
+            Err(None) => Err(refused),
+        }
     }
 
     /// Whether its readings are its joint values, and its lengths those of its table.
@@ -90,7 +102,7 @@ impl Robot {
     /// parallel or at right angles.
     pub(crate) fn nearest(&self, form: ClosedForm) -> Robot {
         let mut table = self.clone();
-        if self.closed_form() == Ok(form) {
+        if form.is_search() || self.closed_form() == Ok(form) {
             return table;
         }
         let start = form.inner(self.dof()).start;
@@ -105,6 +117,8 @@ impl Robot {
         let (meeting, parallel): (&[usize], &[usize]) = match form.family {
             Family::ThreeParallel { .. } => (&[5], &[2, 3]),
             Family::TwoParallel => (&[], &[1]),
+            Family::ElbowAngle => (&[1, 2, 5, 6], &[]),
+            Family::Search { .. } => (&[], &[]),
             Family::Wrist { position, .. } => match position {
                 Position::SecondParallelThird => (&[4, 5], &[2]),
                 Position::FirstParallelSecond => (&[4, 5], &[1]),
@@ -114,9 +128,12 @@ impl Robot {
             },
         };
         meeting.iter().for_each(|k| table.joints[link(*k)].a = Value::ZERO);
-        if matches!(form.family, Family::Wrist { .. }) {
-            table.joints[offset(5)].d = Value::ZERO;
-        }
+        let points: &[usize] = match form.family {
+            Family::Wrist { .. } => &[5],
+            Family::ElbowAngle => &[2, 6],
+            _ => &[],
+        };
+        points.iter().for_each(|k| table.joints[offset(*k)].d = Value::ZERO);
         parallel.iter().for_each(|k| snap(&mut table.joints[link(*k)].alpha, OFF));
         table
     }

@@ -208,7 +208,13 @@ pub const OTHERS: [(&str, &[&str]); 41] = [
 ];
 
 /// A random arm of a family, in either convention.
-pub fn random((name, rows): (&str, impl AsRef<[&'static str]>), draws: &mut Draws) -> Arm {
+pub fn random(family: (&str, impl AsRef<[&'static str]>), draws: &mut Draws) -> Arm {
+    let robot = drawn(family, draws);
+    Arm { name: robot.to_toml(), ..Arm::new(&robot) }
+}
+
+/// The same as a robot.
+pub fn drawn((name, rows): (&str, impl AsRef<[&'static str]>), draws: &mut Draws) -> Robot {
     let rows = rows.as_ref();
     let modified = draws.chance(0.5);
     let mut texts: Vec<[String; 4]> = Vec::new();
@@ -267,8 +273,5 @@ pub fn random((name, rows): (&str, impl AsRef<[&'static str]>), draws: &mut Draw
         "name = \"{name}\"\nconvention = \"{convention}\"\nbase = {base}\ntool = {tool}\njoint = [\n{}\n]\n",
         rows.join(",\n")
     );
-    let robot = Robot::from_toml(&text, "arm.toml").unwrap_or_else(|e| panic!("{e:?}\n{text}")).0;
-    let mut arm = Arm::new(&robot);
-    arm.name = text;
-    arm
+    Robot::from_toml(&text, "arm.toml").unwrap_or_else(|e| panic!("{e:?}\n{text}")).0
 }

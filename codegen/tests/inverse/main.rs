@@ -2,6 +2,7 @@
 //! kinematics, and against a solver that knows nothing of branches.
 
 mod arms;
+mod chosen;
 mod short;
 mod steps;
 
@@ -130,8 +131,10 @@ fn an_arm_without_a_closed_form_is_refused() {
     let slide = "type = \"prismatic\", theta = 0.3";
     let slides = format!("{{ {slide} }},\n{{ {slide} }},\n{}", row("a = 1"));
     refused(file(&slides), "do not move the wrist's point in all directions");
-    let beta = "a = 0.5, beta = 0.1";
-    refused(with([plain[0], beta, plain[2]]), "the row of `joint 2` has a beta");
+    let (beta, length) = ("a = 0.5, beta = 0.1", "a = \"a1\", alpha = \"pi/2\"");
+    refused(with([length, beta, plain[2]]), "the row of `joint 2` has a beta");
+    let searched = with([plain[0], beta, plain[2]]).expect("a search").0;
+    assert!(searched.inverse_kinematics.is_some_and(|form| form.is_search()));
     let skew = "a = 0.5, alpha = 0.3";
     refused(with(["a = \"a1\", alpha = \"pi/2\"", skew, plain[2]]), "none is parallel to the next");
     refused(with([plain[0], "alpha = \"pi/2\"", plain[2]]), "axes 1, 2, 3 meet in a point");

@@ -1,5 +1,6 @@
 //! What an inverse kinematics returns, and which of its branches a controller takes.
 
+mod search;
 mod set_points;
 mod steps;
 
@@ -7,9 +8,11 @@ use core::f64::consts::TAU;
 
 use crate::{Arm, Motion, Pose, Scalar, Unstable};
 
+pub use search::Axes;
 #[doc(hidden)]
 pub use set_points::unloaded;
 pub use set_points::{Elastic, Gives, SetPoints};
+use steps::missed;
 pub use steps::{AtRest, Steps};
 
 /// An arm's readings and the joint values that they mean, which are the same but where an `[[effect]]` moves joints.
@@ -50,6 +53,30 @@ pub trait Inverse<const N: usize, const K: usize, S: Scalar = f64>: JointValues<
     fn inverse_kinematics(&self, pose: &Pose<S>, near: &[S; N]) -> Solutions<S, N, K>;
 }
 
+/// An arm of seven joints that has been generated with its elbow's angle given: the angle of the elbow about the line from
+/// shoulder to wrist, rad. It is zero where the elbow is in the plane of axis 1 and that line, on the side to which axis 1
+/// points, and grows about the direction from shoulder to wrist.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has not been generated with its elbow's angle given, or not for these joints and branches",
+    note = "ask for `inverse_kinematics given elbow_angle` among its `outputs`"
+)]
+pub trait ElbowAngle<const N: usize, const K: usize, S: Scalar = f64>: Inverse<N, K, S> {
+    /// The elbow's angle at readings; [`Inverse::inverse_kinematics`] keeps that of `near`.
+    fn elbow_angle(&self, q: &[S; N]) -> S;
+
+    /// [`Inverse::closed_form`] with the elbow at an angle.
+    fn closed_form_at(&self, pose: &Pose<S>, near: &[S; N], elbow_angle: S) -> Solutions<S, N, K>;
+
+    /// [`Inverse::inverse_kinematics`] with the elbow at an angle. Steps behind the closed form of another table move it by
+    /// about as much as that differs.
+    fn inverse_kinematics_at(
+        &self,
+        pose: &Pose<S>,
+        near: &[S; N],
+        elbow_angle: S,
+    ) -> Solutions<S, N, K>;
+}
+
 /// Every branch of an inverse kinematics, whether it reaches the pose or not, in an order that is stable along a path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Solutions<S, const N: usize, const K: usize> {
@@ -83,11 +110,13 @@ pub struct Solution<S, const N: usize> {
 
 impl<S: Scalar, const N: usize, const K: usize> Solutions<S, N, K> {
     /// Each branch's joint values replaced by readings, and by what they miss the pose ([`AtRest::follow`]). A branch at
-    /// which the arm does not bear its load stays as it is, and misses the pose by an infinite distance.
+    /// which the arm does not bear its load, or that was not found, stays as it is, and misses the pose by an infinite distance.
     pub fn each(mut self, follow: impl Fn([S; N]) -> Result<([S; N], [S; 2]), Unstable>) -> Self {
         for branch in 0..K {
             let infinite = [S::lit(f64::INFINITY); 2];
-            let (q, missed) = follow(self.q[branch]).unwrap_or((self.q[branch], infinite));
+            let none = (self.distance[branch] - S::lit(f64::from(f32::MAX))).is_positive();
+            let followed = if none { Err(Unstable) } else { follow(self.q[branch]) };
+            let (q, missed) = followed.unwrap_or((self.q[branch], infinite));
             (self.q[branch], [self.distance[branch], self.tilt[branch]]) = (q, missed);
         }
         self

@@ -106,13 +106,13 @@ where
 pub fn unloaded<S: Scalar, const N: usize, const K: usize, A>(
     arm: &A,
     pose: &Pose<S>,
-    near: &[S; N],
+    closed: Solutions<S, N, K>,
 ) -> Solutions<S, N, K>
 where
     A: Inverse<N, K, S> + has::Pose<N, S> + has::Jacobian<N, S>,
 {
     let steps = (A::STEPS.unloaded, A::STEPS.readings);
-    arm.closed_form(pose, near).each(|q| Rigid(arm, A::GIVEN).follow(q, pose, steps))
+    closed.each(|q| Rigid(arm, A::GIVEN).follow(q, pose, steps))
 }
 
 /// The set-points of an arm that gives under its load and its weights: the readings at which its tool, at rest, stands at a

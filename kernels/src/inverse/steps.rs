@@ -95,7 +95,7 @@ pub trait AtRest<S, const N: usize> {
 /// writes them out.
 #[allow(clippy::needless_range_loop, reason = "a row is changed while another one is read")]
 #[inline(always)]
-fn step<S: Scalar, const N: usize>(
+pub(super) fn step<S: Scalar, const N: usize>(
     jacobian: &[[S; 6]; N],
     error: &[S; 6],
 ) -> Result<[S; N], Unstable> {
@@ -148,7 +148,7 @@ fn step<S: Scalar, const N: usize>(
 
 /// Translation from a pose to another, and `sin φ` about the axis of the turn.
 #[inline(always)]
-fn error<S: Scalar>(from: &Pose<S>, to: &Pose<S>) -> [S; 6] {
+pub(super) fn error<S: Scalar>(from: &Pose<S>, to: &Pose<S>) -> [S; 6] {
     let mut error = [S::lit(0.0); 6];
     for k in 0..3 {
         error[k] = to.position[k] - from.position[k];
@@ -164,7 +164,7 @@ fn error<S: Scalar>(from: &Pose<S>, to: &Pose<S>) -> [S; 6] {
 
 /// Distance of two poses, and twice the sine of half the angle between their axes.
 #[inline(always)]
-fn missed<S: Scalar>(a: &Pose<S>, b: &Pose<S>) -> [S; 2] {
+pub(super) fn missed<S: Scalar>(a: &Pose<S>, b: &Pose<S>) -> [S; 2] {
     let zero = S::lit(0.0);
     let square = |a: &[S; 3], b: &[S; 3]| {
         a.iter().zip(b).fold(zero, |sum, (a, b)| sum + (*a - *b) * (*a - *b))

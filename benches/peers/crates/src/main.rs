@@ -261,9 +261,11 @@ macro_rules! arm {
 }
 
 fn main() {
-    let Some(directory) = std::env::args().nth(1) else { return inverse::compete() };
-    let directory = directory.as_str();
-    arm!(directory ur10 6);
-    arm!(directory panda 7);
-    inverse::compete();
+    let directory = std::env::args().nth(1);
+    let Some(directory) = directory.as_deref() else { return inverse::all(None) };
+    if std::path::Path::new(directory).join("ur10.links").exists() {
+        arm!(directory ur10 6);
+        arm!(directory panda 7);
+    }
+    inverse::all(Some(directory));
 }

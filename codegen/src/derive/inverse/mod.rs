@@ -24,6 +24,7 @@ macro_rules! by_joints {
 
 mod any;
 mod displacement;
+mod elbow;
 mod gives;
 mod layout;
 mod one_slide;
@@ -39,6 +40,7 @@ mod term;
 mod wrist;
 
 pub use any::{AnyArm, Branch as AnyBranch, any_arm};
+pub use elbow::elbow_angle;
 pub use gives::gives;
 use layout::{Layout, Value};
 pub use steps::{AsItIs, steps};
@@ -47,8 +49,10 @@ use term::{Sheet, Term};
 use super::own::{Held, Own, OwnInput, Quantity, Size};
 use super::program::{Block, Program};
 use super::readings::Readings;
-use crate::expr::{Expr, Graph};
-use crate::robot::{CLOSED_FORM, ClosedForm, Family, INVERSE_KINEMATICS, Motion, Robot};
+use crate::expr::{Expr, Graph, Symbol};
+use crate::robot::{
+    CLOSED_FORM, ClosedForm, ELBOW_ANGLE, Family, INVERSE_KINEMATICS, Motion, Robot,
+};
 
 /// Where the joints of one branch stand, and how far its pose is from what was asked: m, and the length between unit vectors.
 struct Branch<'g> {
@@ -90,6 +94,11 @@ pub fn inverse(robot: &Robot, form: ClosedForm) -> Program {
             plane::branches(arm, before, behind, lift)
         }
         Family::TwoParallel => plane::two(arm),
+        Family::ElbowAngle => {
+            elbow::branches(arm, sheet.symbol(Symbol::Own { input: 1, entry: 0 }))
+        }
+        // Its solutions are searched for when the program runs.
+        Family::Search { .. } => Vec::new(),
     };
     let (n, count) = (robot.dof(), branches.len());
     let q = branches.iter().flat_map(|branch| arm.joint_values(&branch.joints));
@@ -127,15 +136,27 @@ pub fn inverse(robot: &Robot, form: ClosedForm) -> Program {
                 form.sentence(),
                 given(form)
             ),
-            inputs: vec![OwnInput {
-                name: "target".to_owned(),
-                unit: "m (axes: 1)".to_owned(),
-                sentence: "pose of the tool, base axes: its axes x, y, z, its origin".to_owned(),
-                size: Some(12),
-            }],
+            inputs: inputs(form),
             finite: true,
         }),
     }
+}
+
+/// What the inverse is a function of, beside readings.
+fn inputs(form: ClosedForm) -> Vec<OwnInput> {
+    let input = |name: &str, unit: &str, sentence: &str, size| OwnInput {
+        name: name.to_owned(),
+        unit: unit.to_owned(),
+        sentence: sentence.to_owned(),
+        size,
+    };
+    let pose = "pose of the tool, base axes: its axes x, y, z, its origin";
+    let elbow = "angle of the elbow about the line from shoulder to wrist";
+    let mut inputs = vec![input("target", "m (axes: 1)", pose, Some(12))];
+    inputs.extend(
+        (form.family == Family::ElbowAngle).then(|| input(ELBOW_ANGLE, "rad", elbow, None)),
+    );
+    inputs
 }
 
 /// What the numbers of the branches mean.

@@ -2,13 +2,13 @@
 
 use std::sync::Arc;
 
-use stiffarm_kernels::{AtRest, Motion, Pose, Solution, Steps, Unstable, nearest_branch};
+use stiffarm_kernels::{AtRest, Axes, Motion, Pose, Solution, Steps, Unstable, nearest_branch};
 
-use super::{gives, inverse};
+use super::{elbow_angle, gives, inverse};
 use crate::derive::{Given, Program, derive};
 use crate::expr::Symbol;
 use crate::robot::beyond::{Law, Move};
-use crate::robot::{ClosedForm, DEFLECTION, Robot, STEPPED};
+use crate::robot::{ClosedForm, DEFLECTION, Family, Robot, STEPPED};
 
 /// What the steps leave at most, m and rad: a tenth of a nanometre, with which a nanometre has a margin of ten.
 const LEFT: f64 = 1e-10;
@@ -32,6 +32,8 @@ pub struct AsItIs<const N: usize> {
     given: Given,
     /// The joint that the closed form is given.
     held: Option<usize>,
+    /// The axes where solutions are searched for, and the joint in the middle of the equations.
+    search: Option<(Axes<N>, usize)>,
     motion: [Motion; N],
     links: bool,
     readings: usize,
@@ -40,6 +42,8 @@ pub struct AsItIs<const N: usize> {
 #[derive(Debug)]
 struct Programs {
     closed: Program,
+    /// Of a closed form that is given the elbow's angle.
+    elbow: Option<Program>,
     rigid: Program,
     gives: Program,
     sag: Program,
@@ -54,6 +58,7 @@ impl<const N: usize> AsItIs<N> {
         let links = robot.joints.iter().any(|joint| joint.beam.is_some());
         let programs = Programs {
             closed: inverse(robot, form),
+            elbow: (form.family == Family::ElbowAngle).then(|| elbow_angle(robot, form)),
             rigid: derive(robot, &STEPPED),
             gives: gives(robot),
             sag: derive(robot, &[DEFLECTION]),
@@ -63,6 +68,10 @@ impl<const N: usize> AsItIs<N> {
             programs: Arc::new(programs),
             given,
             held: form.given,
+            search: match form.family {
+                Family::Search { third } => Some((robot.axes(), third)),
+                _ => None,
+            },
             motion: core::array::from_fn(motion),
             links: links || !robot.beyond.springs.is_empty(),
             readings: readings(robot),
@@ -79,7 +88,19 @@ impl<const N: usize> AsItIs<N> {
         let columns = pose.columns();
         let target = columns.as_flattened();
         let (joints, _) = self.programs.closed.readings.evaluate(near, &self.given);
+        if let Some((axes, third)) = &self.search {
+            return axes.search(pose, &array(&joints), (self.held, *third)).iter().collect();
+        }
+        let elbow = self.given.elbow_angle.or_else(|| {
+            let Program { graph, blocks, .. } = self.programs.elbow.as_ref()?;
+            let value = |symbol: &Symbol| match symbol {
+                Symbol::Joint(joint) => joints[*joint],
+                _ => f64::NAN,
+            };
+            graph.evaluate(&blocks[0].entries, value).first().copied()
+        });
         let value = |symbol: &Symbol| match symbol {
+            Symbol::Own { input: 1, .. } => elbow.unwrap_or(0.0),
             Symbol::Own { entry, .. } => target[*entry],
             Symbol::Joint(joint) => joints[*joint],
             _ => f64::NAN,
@@ -131,11 +152,15 @@ impl<const N: usize> AsItIs<N> {
         (wrench, most): (Option<&[f64; 6]>, usize),
     ) -> Vec<Solution<f64, N>> {
         let each = self.closed_form(pose, near).into_iter();
-        each.map(|begin| match self.follow(begin.q, pose, (wrench, most)) {
-            Ok((q, [distance, tilt])) => Solution { q, distance, tilt, ..begin },
-            Err(Unstable) => Solution { distance: f64::INFINITY, tilt: f64::INFINITY, ..begin },
-        })
-        .collect()
+        let each = each.map(|begin| {
+            // A search that has found fewer has no more to follow.
+            let found = begin.distance.is_finite().then_some(begin.q).ok_or(Unstable);
+            match found.and_then(|q| self.follow(q, pose, (wrench, most))) {
+                Ok((q, [distance, tilt])) => Solution { q, distance, tilt, ..begin },
+                Err(Unstable) => Solution { distance: f64::INFINITY, tilt: f64::INFINITY, ..begin },
+            }
+        });
+        each.collect()
     }
 
     fn blocks(

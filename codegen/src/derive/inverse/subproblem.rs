@@ -30,7 +30,7 @@ pub(super) struct Free<'g> {
 }
 
 impl<'g> Free<'g> {
-    fn or(self, length: Term<'g>, determined: Pair<'g>) -> Pair<'g> {
+    pub fn or(self, length: Term<'g>, determined: Pair<'g>) -> Pair<'g> {
         let beyond = length - self.tiny;
         [0, 1].map(|k| beyond.select(determined[k], self.near[k]))
     }

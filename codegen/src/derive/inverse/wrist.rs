@@ -69,23 +69,33 @@ pub(super) fn two_turns<'g>(
 /// Both branches of the wrist where the first three joints stand.
 pub(super) fn wrists<'g>(arm: &Layout<'g>, At { joints, distance }: At<'g>) -> [Branch<'g>; 2] {
     let [x, _, z] = arm.target.axes;
-    let (first, last) = (behind_third(arm, joints, x), behind_third(arm, joints, z));
-    let [near, far] = [arm.alpha[3], arm.alpha[4]];
-    two_turns(arm, last, [near, far], 3).map(|Turned { fifth, beside: fourth, tilt }| {
-        // Rx(−α_5) Rz(−θ_5) Rx(−α_4) Rz(−θ_4) M is a turn about z.
-        let rest = about_x_back(near, about_z_back(fourth, first));
-        let rest = about_x_back(far, about_z_back(fifth, rest));
-        let mut joints = joints.to_vec();
-        joints.extend([fourth, fifth, [rest[0], rest[1]]].map(Value::Turn));
+    let rest = [x, z].map(|axis| behind(arm, &joints, axis));
+    three_turns(arm, rest, 3).map(|(angles, tilt)| {
+        let joints = joints.into_iter().chain(angles.map(Value::Turn)).collect();
         Branch { joints, distance, tilt }
     })
 }
 
+/// Both triples of angles, from that of joint `first`, that turn x and z to these, and how far they leave z.
+pub(super) fn three_turns<'g>(
+    arm: &Layout<'g>,
+    [x, z]: [Vector<'g>; 2],
+    first: usize,
+) -> [([Pair<'g>; 3], Term<'g>); 2] {
+    let [near, far] = [arm.alpha[first], arm.alpha[first + 1]];
+    two_turns(arm, z, [near, far], first).map(|Turned { fifth, beside: fourth, tilt }| {
+        // Rx(−α_5) Rz(−θ_5) Rx(−α_4) Rz(−θ_4) M is a turn about z.
+        let rest = about_x_back(near, about_z_back(fourth, x));
+        let rest = about_x_back(far, about_z_back(fifth, rest));
+        ([fourth, fifth, [rest[0], rest[1]]], tilt)
+    })
+}
+
 /// The branch of an arm with fewer than three joints behind the first three.
-pub(super) fn short<'g>(arm: &Layout<'g>, At { joints, .. }: At<'g>, behind: usize) -> Branch<'g> {
-    let mut axes = arm.target.axes.map(|axis| behind_third(arm, joints, axis));
+pub(super) fn short<'g>(arm: &Layout<'g>, At { joints, .. }: At<'g>, after: usize) -> Branch<'g> {
+    let mut axes = arm.target.axes.map(|axis| behind(arm, &joints, axis));
     let mut joints = joints.to_vec();
-    if behind == 2 {
+    if after == 2 {
         let free = free(arm, 3);
         let alpha = arm.alpha[3];
         let from = [free.tiny.zero(), -alpha[1]];
@@ -93,7 +103,7 @@ pub(super) fn short<'g>(arm: &Layout<'g>, At { joints, .. }: At<'g>, behind: usi
         axes = axes.map(|axis| about_x_back(alpha, about_z_back(fourth, axis)));
         joints.push(Value::Turn(fourth));
     }
-    if behind > 0 {
+    if after > 0 {
         joints.push(Value::Turn(last_turn(arm, axes)));
     }
     Branch::missed(arm, joints)
@@ -109,12 +119,12 @@ pub(super) fn free<'g>(arm: &Layout<'g>, joint: usize) -> Free<'g> {
     Free { near: arm.near[joint], tiny: arm.tiny.exact(Number::rounded(NOTHING * NOTHING)) }
 }
 
-/// A vector of the base in frame 3. Parallel axes turn as one.
-fn behind_third<'g>(arm: &Layout<'g>, joints: [Value<'g>; 3], v: Vector<'g>) -> Vector<'g> {
+/// A vector of the base in the frame behind the first joints. Parallel axes turn as one.
+pub(super) fn behind<'g>(arm: &Layout<'g>, joints: &[Value<'g>], v: Vector<'g>) -> Vector<'g> {
     let mut v = v;
     let mut pending: Option<Pair> = None;
-    for (k, value) in joints.into_iter().enumerate() {
-        let angle = arm.turn(k, value);
+    for (k, value) in joints.iter().enumerate() {
+        let angle = arm.turn(k, *value);
         let sum = pending.map_or(angle, |before| turned(before, angle));
         // There is no link behind the third of three joints.
         match arm.alpha.get(k).copied() {

@@ -1,6 +1,6 @@
 //! A generated robot as a value: `Kernels`, behind a pointer, and `Arm`, for what is written against an arm.
 
-use stiffarm_kernels::{Input, Output, Side, Steps};
+use stiffarm_kernels::{Axes, Input, Output, Side, Steps};
 
 use super::function::parameter;
 use super::posture::INLINE;
@@ -9,7 +9,10 @@ use super::table::numeric;
 use crate::derive::{Held, steps};
 use crate::emit::lines::Lines;
 use crate::ir::{Extra, Group, Module};
-use crate::robot::{CLOSED_FORM, ClosedForm, DEFLECTION, GIVES, INVERSE_KINEMATICS, Motion, Robot};
+use crate::robot::{
+    CLOSED_FORM, ClosedForm, DEFLECTION, ELBOW_ANGLE, Family, GIVES, INVERSE_KINEMATICS, Motion,
+    Robot,
+};
 
 /// The struct `Robot` and its traits.
 pub(super) fn interface(
@@ -195,8 +198,24 @@ fn inverse(out: &mut Lines, target: &str, module: &Module, form: ClosedForm) {
     let given = own(&module.readings.extras);
     let count = form.branches();
     joint_values(out, target, module);
+    if form.is_search() {
+        axes(out, module.robot);
+    }
     out.blank();
-    out.within(&format!("impl<S: Scalar> Inverse<N, {count}, S> for {target} {{"), "}", |out| {
+    let number = if form.is_search() { "Scalar + Into<f64>" } else { "Scalar" };
+    let of = |name: &str| format!("impl<S: {number}> {name}<N, {count}, S> for {target} {{");
+    let head = |name: &str, beside: &str| {
+        format!(
+            "fn {name}(&self, pose: &Pose<S>, near: &[S; N]{beside}) -> Solutions<S, N, {count}> {{"
+        )
+    };
+    let exact = module.functions().any(|function| function.name() == INVERSE_KINEMATICS);
+    let elbow = form.family == Family::ElbowAngle;
+    let whole = |closed: &str| match exact {
+        true => closed.to_owned(),
+        false => format!("unloaded(self, pose, {closed})"),
+    };
+    out.within(&of("Inverse"), "}", |out| {
         let Steps { unloaded, loaded, readings } = steps(module.robot, form);
         out.code(&format!(
             "const STEPS: Steps = Steps {{ unloaded: {unloaded}, loaded: {loaded}, \
@@ -205,38 +224,69 @@ fn inverse(out: &mut Lines, target: &str, module: &Module, form: ClosedForm) {
         if let Some(joint) = form.given {
             out.code(&format!("const GIVEN: Option<usize> = Some({joint});"));
         }
-        let head = |name: &str| {
-            format!(
-                "fn {name}(&self, pose: &Pose<S>, near: &[S; N]) -> Solutions<S, N, {count}> {{"
-            )
-        };
-        let exact = module.functions().any(|function| function.name() == INVERSE_KINEMATICS);
-        let (name, structure) = match exact {
-            true => (INVERSE_KINEMATICS, "InverseKinematics"),
-            false => (CLOSED_FORM, "ClosedForm"),
-        };
-        out.within(&head(CLOSED_FORM), "}", |out| {
-            out.code("let columns = pose.columns();");
-            out.code(
-                "let [target] = columns.as_flattened().as_chunks().0 else { \
-                 ::core::unreachable!() };",
-            );
-            out.code(&format!(
-                "let {name}::{structure} {{ q, distance, tilt }} = \
-                 {name}({constants}near{given}, target);"
-            ));
-            let motion = motion(module.robot);
-            out.code(&format!("Solutions {{ q, distance, tilt, motion: {motion} }}"));
-        });
-        let whole = match exact {
-            true => "self.closed_form(pose, near)",
-            false => "unloaded(self, pose, near)",
-        };
-        method(out, &head(INVERSE_KINEMATICS), whole);
+        match form.family {
+            Family::Search { third } => method(
+                out,
+                &head(CLOSED_FORM, ""),
+                &format!("AXES.search(pose, &self.joints(near), ({:?}, {third}))", form.given),
+            ),
+            _ if elbow => method(
+                out,
+                &head(CLOSED_FORM, ""),
+                "self.closed_form_at(pose, near, self.elbow_angle(near))",
+            ),
+            _ => called(out, &head(CLOSED_FORM, ""), module, ""),
+        }
+        method(out, &head(INVERSE_KINEMATICS, ""), &whole("self.closed_form(pose, near)"));
     });
+    if elbow {
+        out.blank();
+        out.within(&of("ElbowAngle"), "}", |out| {
+            let angle = format!("{ELBOW_ANGLE}({constants}q{given})");
+            method(out, "fn elbow_angle(&self, q: &[S; N]) -> S {", &angle);
+            called(out, &head("closed_form_at", ", elbow_angle: S"), module, ", elbow_angle");
+            let at = whole("self.closed_form_at(pose, near, elbow_angle)");
+            method(out, &head("inverse_kinematics_at", ", elbow_angle: S"), &at);
+        });
+    }
     if module.robot.has_set_points() {
         elastic(out, target, (module, constants));
     }
+}
+
+/// A method that calls the closed form's function.
+fn called(out: &mut Lines, head: &str, module: &Module, beside: &str) {
+    let constants = if module.is_symbolic() { "&self.constants, " } else { "" };
+    let given = own(&module.readings.extras);
+    let exact = module.functions().any(|function| function.name() == INVERSE_KINEMATICS);
+    let (name, structure) = match exact {
+        true => (INVERSE_KINEMATICS, "InverseKinematics"),
+        false => (CLOSED_FORM, "ClosedForm"),
+    };
+    out.within(head, "}", |out| {
+        out.code("let columns = pose.columns();");
+        out.code(
+            "let [target] = columns.as_flattened().as_chunks().0 else { ::core::unreachable!() };",
+        );
+        out.code(&format!(
+            "let {name}::{structure} {{ q, distance, tilt }} = \
+             {name}({constants}near{given}, target{beside});"
+        ));
+        let motion = motion(module.robot);
+        out.code(&format!("Solutions {{ q, distance, tilt, motion: {motion} }}"));
+    });
+}
+
+/// The axes by which solutions are searched for.
+fn axes(out: &mut Lines, robot: &Robot) {
+    fn text<const N: usize>(robot: &Robot) -> String {
+        let Axes { lines, home } = robot.axes::<N>();
+        format!("Axes {{ lines: {lines:?}, home: {home:?} }}")
+    }
+    let text = if robot.dof() == 7 { text::<7>(robot) } else { text::<6>(robot) };
+    out.blank();
+    out.doc("The inverse kinematics is a search, not a closed form: every solution by these axes, at most sixteen.");
+    out.code(&format!("pub const AXES: Axes<N> = {text};"));
 }
 
 /// Which joints turn, as an array.

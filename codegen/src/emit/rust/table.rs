@@ -10,7 +10,10 @@ use super::RustOptions;
 use super::style::Rust;
 use crate::emit::lines::Lines;
 use crate::ir::{Constants, Module};
-use crate::robot::{Angle, CLOSED_FORM, Convention, Entry, Joint, Motion, Quantity, Robot, Value};
+use crate::robot::{
+    Angle, CLOSED_FORM, ClosedForm, Convention, ELBOW_ANGLE, Entry, Joint, Motion, Quantity, Robot,
+    Value,
+};
 
 /// Imports, name, number of joints, table.
 pub(super) fn header(module: &Module, alone: bool, options: &RustOptions) -> String {
@@ -30,6 +33,8 @@ pub(super) fn header(module: &Module, alone: bool, options: &RustOptions) -> Str
     let outputs = robot.generated();
     let inverse = robot.inverse_kinematics.is_some();
     let stepped = module.functions().any(|function| function.name() == CLOSED_FORM);
+    let searched = robot.inverse_kinematics.is_some_and(ClosedForm::is_search);
+    let elbow = module.functions().any(|function| function.name() == ELBOW_ANGLE);
     let poses = outputs.iter().any(|o| matches!(o.form(), Form::Pose | Form::Poses));
     let uses = [
         (true, "Arm DhRow Error Kernels Motion Output Scalar fill has"),
@@ -38,7 +43,9 @@ pub(super) fn header(module: &Module, alone: bool, options: &RustOptions) -> Str
         (inverse, "Inverse JointValues Solutions Steps"),
         (poses || inverse, "Pose"),
         (outputs.iter().any(|o| o.is_fallible()), "Unstable"),
-        (inverse && stepped, "unloaded"),
+        (inverse && (stepped || searched), "unloaded"),
+        (searched, "Axes"),
+        (elbow, "ElbowAngle"),
     ];
     imports(&mut out, options, &uses);
     out.blank();

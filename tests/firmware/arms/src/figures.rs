@@ -6,7 +6,8 @@ use crate::Real;
 use crate::computed_torque::{self, Gains, Target};
 use crate::impedance::{Impedance, step};
 use crate::robots::{
-    iiwa14, kuka_kr240, kuka_kr240_lean, panda, ur5_lean, ur5_springs, ur10_lean, ur10_moving,
+    iiwa14, kuka_kr240, kuka_kr240_inverse, kuka_kr240_lean, panda, ur5_lean, ur5_springs,
+    ur10_inverse, ur10_lean, ur10_moving,
 };
 use crate::set_point::{Correction, Reading, Refusal, correct};
 
@@ -122,6 +123,18 @@ kernels! {
     iiwa14_pose_and_jacobian(q: 7, _) -> PoseAndJacobian<S, 7> {
         pose_and_jacobian!(iiwa14, q)
     } from (iiwa14::pose(&[S::of(0); 7]), [[S::of(0); 6]; 7]);
+    /// The eight branches of the UR10's inverse kinematics: joint values near which free joints stay, and a pose.
+    ur10_inverse_kinematics(near: 18, _) -> [[S; 6]; 8] {
+        let ([q, ..], target) = (near.as_chunks().0, &near[6..]) else { return };
+        let Ok(target) = target.try_into() else { return };
+        ur10_inverse::inverse_kinematics(q, target).q
+    } from [[S::of(0); 6]; 8];
+    /// The same of the KR 240-2.
+    kuka_kr240_inverse_kinematics(near: 18, _) -> [[S; 6]; 8] {
+        let ([q, ..], target) = (near.as_chunks().0, &near[6..]) else { return };
+        let Ok(target) = target.try_into() else { return };
+        kuka_kr240_inverse::inverse_kinematics(q, target).q
+    } from [[S::of(0); 6]; 8];
     /// Torques of the UR10's motors for a motion.
     ur10_inverse_dynamics(state: 18, _) -> [S; 6] {
         let ([q, qd, qdd], _) = state.as_chunks() else { return };

@@ -29,6 +29,16 @@ robot! {
     outputs: pose, jacobian;
 }
 robot! {
+    /// The UR10, every branch of its inverse kinematics.
+    pub mod ur10_inverse from "../../../robots/arms/ur10.toml";
+    outputs: inverse_kinematics;
+}
+robot! {
+    /// The KR 240-2, likewise.
+    pub mod kuka_kr240_inverse from "../../../robots/arms/kuka_kr240.toml";
+    outputs: inverse_kinematics;
+}
+robot! {
     /// The KR 240-2, pose and Jacobian.
     pub mod kuka_kr240_lean from "../../../robots/arms/kuka_kr240.toml";
     outputs: pose, jacobian;

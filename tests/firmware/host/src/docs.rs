@@ -30,6 +30,8 @@ fn title(name: &str) -> &str {
         "kuka_kr240_deflection" => "KR 240-2: deflection with K_C",
         "iiwa14_pose_and_jacobian" => "iiwa 14 (7 joints): pose + Jacobian",
         "ur10_inverse_dynamics" => "**UR10: inverse dynamics**",
+        "ur10_inverse_kinematics" => "UR10: inverse kinematics, eight branches",
+        "kuka_kr240_inverse_kinematics" => "KR 240-2: inverse kinematics, eight branches",
         "ur10_bias" => "UR10: bias",
         "ur10_weight_torque" => "UR10: weights alone",
         "ur10_mass_matrix" => "UR10: mass matrix",

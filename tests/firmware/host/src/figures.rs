@@ -27,9 +27,17 @@ pub struct Figure {
 const TICK: u32 = 40;
 
 /// Kernels whose calls may differ: they solve, and an unstable arm leaves them early; the loop
-/// refuses.
-const SOLVING: [&str; 5] =
-    ["deflection", "all", "control_period", "kuka_kr240_deflection", "c_deflection"];
+/// refuses; square roots and arctangents of the inverse kinematics select what the compiler branches
+/// on.
+const SOLVING: [&str; 7] = [
+    "deflection",
+    "all",
+    "control_period",
+    "kuka_kr240_deflection",
+    "c_deflection",
+    "ur10_inverse_kinematics",
+    "kuka_kr240_inverse_kinematics",
+];
 
 /// The figures that an image sent, with what its file says of each function.
 ///

@@ -1,4 +1,5 @@
-//! Set-points under a load in C: the Rust kernels' steps behind the closed form, operation by operation.
+//! The arm as it is in C, unloaded and at rest under a load: the Rust kernels' steps behind the closed form, operation by
+//! operation.
 
 mod text;
 
@@ -9,8 +10,8 @@ use super::Sines;
 use crate::derive::steps;
 use crate::emit::lines::Lines;
 use crate::ir::Extra;
-use crate::robot::{CLOSED_FORM, GIVES};
-use text::{at_rest, displaced, missed, step, whole};
+use crate::robot::{CLOSED_FORM, Family, GIVES};
+use text::{displaced, follow, missed, stands, step, whole};
 
 /// What the text of an arm depends on.
 struct Text {
@@ -23,50 +24,61 @@ struct Text {
     /// The closed form's function.
     closed: &'static str,
     links: bool,
+    /// Whether it is under a load, and not rigid.
+    loaded: bool,
     /// Whether the function of what gives takes a wrench.
     loads: bool,
     moves: bool,
     margin: Option<[f64; 2]>,
-    steps: Steps,
+    /// Steps to joint values, and from those to readings.
+    steps: [usize; 2],
     /// Joints.
     n: usize,
     branches: usize,
     /// The joint that is given.
     held: Option<usize>,
+    /// Whether the elbow's angle is.
+    elbow: bool,
 }
 
 impl Text {
-    /// Of an arm of which they are written: not of a GPU's, nor without sines.
-    fn of(module: &Module) -> Option<Text> {
+    /// Of an arm of which they are written: not of a GPU's, nor without sines, nor of the rigid arm where that has no steps.
+    fn of(module: &Module, loaded: bool) -> Option<Text> {
         let form = module.ir.robot.inverse_kinematics?;
-        let written = module.options.sines != Sines::Given && !module.language.device;
-        if !written || !module.ir.robot.has_set_points() {
+        if form.is_search() {
             return None;
         }
+        let written = module.options.sines != Sines::Given && !module.language.device;
         let (name, real) = (module.name().to_owned(), module.language.real());
         let upper = name.to_uppercase();
         let find = |called: &str| module.ir.functions().find(|f| f.name() == called);
-        let gives = find(GIVES)?;
-        let tool = gives.blocks().last()?;
-        let deflection = find(crate::robot::DEFLECTION.name())?;
-        let margin = deflection.solves().find_map(|solve| solve.margin);
+        let exact = find(CLOSED_FORM).is_none();
+        if !written || if loaded { !module.ir.robot.has_set_points() } else { exact } {
+            return None;
+        }
+        let gives = find(GIVES);
+        let tool = gives.and_then(|gives| gives.blocks().last());
+        let deflection = find(crate::robot::DEFLECTION.name());
+        let margin = deflection.and_then(|d| d.solves().find_map(|solve| solve.margin));
+        let Steps { unloaded, loaded: under, readings } = steps(module.ir.robot, form);
         let extras = &module.ir.readings.extras;
         let parameter = |extra: &Extra| match extra {
             Extra::Sides => format!(", const {real} sides[{upper}_JOINTS]"),
             Extra::Warming => format!(", {real} warming"),
         };
         let given = [extras.iter().map(parameter).collect(), module.ir.readings.handed_on()];
-        let exact = find(CLOSED_FORM).is_none();
         Some(Text {
             closed: if exact { crate::robot::INVERSE_KINEMATICS } else { CLOSED_FORM },
-            links: tool.entries.iter().any(|e| !e.is_zero()),
-            loads: !gives.arguments.is_empty(),
+            links: tool.is_some_and(|tool| tool.entries.iter().any(|e| !e.is_zero())),
+            loaded,
+            loads: gives.is_some_and(|gives| !gives.arguments.is_empty()),
             moves: module.ir.readings.moves,
             margin: margin.map(|margin| margin.map(|most| most.to_f64())),
-            steps: steps(module.ir.robot, form),
+            steps: [if loaded { under } else { unloaded }, readings],
             n: module.ir.robot.dof(),
             branches: form.branches(),
             held: form.given,
+            elbow: form.family == Family::ElbowAngle,
             suffix: module.language.suffix(),
             name,
             upper,
@@ -83,59 +95,97 @@ impl Text {
         }
     }
 
+    /// What it is called behind the arm's name.
+    fn function(&self) -> &'static str {
+        if self.loaded { "set_points" } else { crate::robot::INVERSE_KINEMATICS }
+    }
+
+    /// Something where it is under a load.
+    fn under<'t>(&self, load: &'t str) -> &'t str {
+        if self.loaded { load } else { "" }
+    }
+
     fn head(&self) -> String {
         let Text { name, upper, real, given: [parameters, _], .. } = self;
+        let function = self.function();
+        let wrench = format!("const {real} wrench[6], ");
+        let wrench = self.under(&wrench);
         format!(
-            "void {name}_set_points(const {real} q[{upper}_JOINTS]{parameters}, const {real} target[12],\n    \
-             const {real} wrench[6], {name}_set_points_t *out)"
+            "void {name}_{function}(const {real} q[{upper}_JOINTS]{parameters}, const {real} target[12],\n    \
+             {wrench}{name}_{function}_t *out)"
         )
     }
 }
 
+/// The arm rigid and under a load, where each is written.
+fn texts(module: &Module) -> impl Iterator<Item = Text> {
+    [false, true].into_iter().filter_map(|loaded| Text::of(module, loaded))
+}
+
 /// The declarations of the header.
 pub(super) fn declared(module: &Module, out: &mut Lines) {
-    let Some(text) = Text::of(module) else { return };
-    let Text { name, real, steps: Steps { loaded, .. }, branches, .. } = &text;
-    let head = text.head();
-    out.verbatim(&format!(
-        "
-/* Everything that {name}_set_points computes. */
+    for text in texts(module) {
+        let Text { name, real, steps: [count, _], branches, .. } = &text;
+        let (head, function) = (text.head(), text.function());
+        let what = match text.loaded {
+            true => format!(
+                "The readings at which the loaded arm's tool stands at a pose, at rest under a wrench and its weights, branch by
+ * branch: the closed form, {count} steps behind it, and what the springs give there."
+            ),
+            false => format!(
+                "The readings at which the rigid arm's tool stands at a pose, branch by branch: the closed form of the nearest
+ * table that has one, and {count} steps behind it."
+            ),
+        };
+        out.verbatim(&format!(
+            "
+/* Everything that {name}_{function} computes. */
 typedef struct
 {{
     {real} q[{size}];
     {real} distance[{branches}];
     {real} tilt[{branches}];
-}} {name}_set_points_t;
+}} {name}_{function}_t;
 
-/* The readings at which the loaded arm's tool stands at a pose, at rest under a wrench and its weights, branch by
- * branch: the closed form, {loaded} steps behind it, and what the springs give there.
- * q: a column for each branch, in rad. distance: how far the tool's origin is from the target's, in m; infinite where
- * the arm does not bear the load. tilt: how far its axes are turned, twice the sine of half the angle.
- * `q`: readings near which free joints stay; `target`: pose of the tool: its axes x, y, z, its origin; `wrench`: force
- * and moment on the tool, in N and N*m. */
+/* {what}
+ * q: a column for each branch, in rad. distance: how far the tool's origin is from the target's, in m{infinite}
+ * tilt: how far its axes are turned, twice the sine of half the angle.
+ * `q`: readings near which free joints stay; `target`: pose of the tool: its axes x, y, z, its origin{wrench}. */
 {head};
 ",
-        size = text.n * branches,
-    ));
+            size = text.n * branches,
+            infinite = match text.loaded {
+                true => "; infinite where\n * the arm does not bear the load.",
+                false => ".",
+            },
+            wrench = text.under("; `wrench`: force\n * and moment on the tool, in N and N*m"),
+        ));
+    }
 }
 
 /// The functions of the source.
 pub(super) fn written(module: &Module, out: &mut Lines) {
-    let Some(text) = Text::of(module) else { return };
-    let Text { name, real, given: [parameters, _], n, .. } = &text;
+    let texts: Vec<Text> = texts(module).collect();
+    let Some(first) = texts.first() else { return };
+    let Text { name, real, given: [parameters, _], n, .. } = first;
     out.blank();
     out.comment(&["The posture at joint values, not at readings.".to_owned()]);
     out.code(&format!(
         "static void posture_at(const {real} q[{n}]{parameters}, {name}_posture_t *posture)"
     ));
     out.braces(|out| module.fields(out, &module.ir.posture, false));
-    if text.steps.loaded > 0 {
-        out.verbatim(&step(&text));
+    if texts.iter().any(|text| text.steps[0] > 0) {
+        out.verbatim(&step(first));
     }
-    out.verbatim(&missed(&text));
-    if text.links {
-        out.verbatim(&displaced(&text));
+    out.verbatim(&missed(first));
+    for text in &texts {
+        if text.loaded {
+            if text.links {
+                out.verbatim(&displaced(text));
+            }
+            out.verbatim(&stands(text));
+        }
+        out.verbatim(&follow(text));
+        out.verbatim(&whole(text));
     }
-    out.verbatim(&at_rest(&text));
-    out.verbatim(&whole(&text));
 }

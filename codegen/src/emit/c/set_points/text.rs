@@ -1,7 +1,5 @@
 //! The functions themselves, each as the Rust kernels have it.
 
-use stiffarm_kernels::Steps;
-
 use super::Text;
 
 /// A step.
@@ -176,11 +174,39 @@ static void displace({real} pose[12], const {real} by[6])
     )
 }
 
-/// Where the tool stands, and one branch.
-pub(super) fn at_rest(text: &Text) -> String {
+/// Where the loaded tool stands.
+pub(super) fn stands(text: &Text) -> String {
+    let Text { name, real, .. } = text;
+    let load = if text.loads { ", wrench" } else { "" };
+    let gives = match text.links {
+        true => format!(
+            "\n    {name}_gives_t gives;\n\n    {name}_given_gives(posture{load}, &gives);\n    \
+             {name}_given_pose(posture, pose);\n    displace(pose, gives.tool);"
+        ),
+        false => format!("\n    (void)wrench;\n    {name}_given_pose(posture, pose);"),
+    };
+    format!(
+        "
+/* Where the loaded tool stands in a posture at rest. */
+static void stands_at(const {name}_posture_t *posture, const {real} wrench[6], {real} pose[12])
+{{{gives}
+}}
+"
+    )
+}
+
+/// One branch.
+pub(super) fn follow(text: &Text) -> String {
     let Text { name, upper, real, given: [parameters, given], moves, steps, n, .. } = text;
     let entries = 6 * n;
-    let Steps { loaded, readings, .. } = steps;
+    let [count, readings] = steps;
+    let (branch, standing) = (
+        text.function(),
+        match text.loaded {
+            true => "stands_at(&posture, wrench, pose);".to_owned(),
+            false => format!("{name}_given_pose(&posture, pose);"),
+        },
+    );
     let hold = text.held.map_or_else(String::new, |joint| {
         let (first, zero) = (6 * joint, text.lit(0.0));
         format!(
@@ -191,16 +217,16 @@ pub(super) fn at_rest(text: &Text) -> String {
         }}"
         )
     });
-    let stepped = match loaded {
+    let stepped = match count {
         0 => String::new(),
         _ => format!(
             "
-    for (count = 0U; count < {loaded}U; count++)
+    for (count = 0U; count < {count}U; count++)
     {{
         {real} jacobian[{entries}];
 
         posture_at(joints{given}, &posture);
-        stands_at(&posture, wrench, pose);
+        {standing}
         {name}_given_jacobian(&posture, jacobian);{hold}
         if (step(pose, jacobian, target, joints) == 0)
         {{
@@ -208,27 +234,6 @@ pub(super) fn at_rest(text: &Text) -> String {
         }}
     }}"
         ),
-    };
-    let load = if text.loads { ", wrench" } else { "" };
-    let gives = match text.links {
-        true => format!(
-            "\n    {name}_gives_t gives;\n\n    {name}_given_gives(posture{load}, &gives);\n    \
-             {name}_given_pose(posture, pose);\n    displace(pose, gives.tool);"
-        ),
-        false => format!("\n    (void)wrench;\n    {name}_given_pose(posture, pose);"),
-    };
-    let bears = match text.margin {
-        Some([force, moment]) => {
-            let [force, moment] = [text.lit(force), text.lit(moment)];
-            let zero = text.lit(0.0);
-            format!(
-                "    if (!(load_margin(wrench, {force}, {moment}) > {zero}))\n    {{\n        \
-                 status = {name}_given_deflection_with_gravity(&posture, wrench, sag);\n    }}\n"
-            )
-        }
-        None => {
-            format!("    status = {name}_given_deflection_with_gravity(&posture, wrench, sag);\n")
-        }
     };
     let joints = |to: &str| match moves {
         true => format!("{name}_joints(q{given}, {to});"),
@@ -249,77 +254,112 @@ pub(super) fn at_rest(text: &Text) -> String {
 "
         ),
     };
+    let (gives, less, rests) = match text.loaded {
+        true => (
+            gives(text),
+            " - give.joints[k]",
+            format!(
+                "    for (k = 0U; k < {n}U; k++)
+    {{
+        at[k] = at[k] + give.joints[k];
+    }}
+"
+            ),
+        ),
+        false => (String::new(), "", String::new()),
+    };
+    let state = format!(
+        "    {name}_status_t status = {upper}_OK;\n    {name}_gives_t give;\n    {real} sag[6];\n"
+    );
+    let wrench = format!(" const {real} wrench[6],");
+    let (state, wrench) = (text.under(&state), text.under(&wrench));
+    let end = match text.loaded {
+        true => "    (void)sag;\n    return ((definite == 1) && (status == UPPER_OK)) ? 1 : 0;\n",
+        false => "    return definite;\n",
+    };
+    let end = end.replace("UPPER", upper);
     format!(
         "
-/* Where the loaded tool stands in a posture at rest. */
-static void stands_at(const {name}_posture_t *posture, const {real} wrench[6], {real} pose[12])
-{{{gives}
-}}
-
-/* The readings of one branch from its joint values, and what they miss the target by. */
-static {name}_status_t follow(const {real} begin[{n}]{parameters}, const {real} target[12], const {real} wrench[6],
+/* The readings of one branch from its joint values, and what they miss the target by; 0 where the arm is not at rest. */
+static int {branch}_of(const {real} begin[{n}]{parameters}, const {real} target[12],{wrench}
     {real} q[{n}], {real} *distance, {real} *tilt)
 {{
-    {name}_status_t status = {upper}_OK;
-    {name}_posture_t posture = {{0}};
-    {name}_gives_t give;
+{state}    {name}_posture_t posture = {{0}};
     {real} joints[{n}];
     {real} meant[{n}];
     {real} at[{n}];
     {real} pose[12];
-    {real} sag[6];
     int definite = 1;
     unsigned int k;
     unsigned int count = 0U;
 
     (void)count;
     (void)memcpy(joints, begin, sizeof joints);{stepped}
-    posture_at(joints{given}, &posture);
-{bears}    {name}_given_gives(&posture{load}, &give);
-    for (k = 0U; k < {n}U; k++)
+{gives}    for (k = 0U; k < {n}U; k++)
     {{
-        meant[k] = joints[k] - give.joints[k];
+        meant[k] = joints[k]{less};
         q[k] = meant[k];
     }}
 {read}    {again}
-    for (k = 0U; k < {n}U; k++)
-    {{
-        at[k] = at[k] + give.joints[k];
-    }}
-    posture_at(at{given}, &posture);
-    stands_at(&posture, wrench, pose);
+{rests}    posture_at(at{given}, &posture);
+    {standing}
     missed(pose, target, distance, tilt);
-    (void)sag;
-    return (definite == 1) ? status : {upper}_UNSTABLE;
-}}
+{end}}}
 "
+    )
+}
+
+/// What the joints give in a posture, and whether the arm bears its load there.
+fn gives(text: &Text) -> String {
+    let Text { name, given: [_, given], .. } = text;
+    let load = if text.loads { ", wrench" } else { "" };
+    let deflection =
+        format!("status = {name}_given_deflection_with_gravity(&posture, wrench, sag);\n");
+    let bears = match text.margin {
+        Some([force, moment]) => {
+            let [force, moment, zero] = [force, moment, 0.0].map(|x| text.lit(x));
+            format!(
+                "    if (!(load_margin(wrench, {force}, {moment}) > {zero}))\n    {{\n        {deflection}    }}\n"
+            )
+        }
+        None => format!("    {deflection}"),
+    };
+    format!(
+        "    posture_at(joints{given}, &posture);\n{bears}    {name}_given_gives(&posture{load}, &give);\n"
     )
 }
 
 /// All branches.
 pub(super) fn whole(text: &Text) -> String {
-    let Text { name, upper, real, given: [_, given], closed, n, branches, .. } = text;
+    let Text { name, real, given: [_, given], closed, n, branches, .. } = text;
     let most = match text.suffix {
         "" => text.lit(f64::MAX),
         _ => text.lit(f64::from(f32::MAX)),
     };
-    let head = text.head();
+    let (head, branch, wrench) = (text.head(), text.function(), text.under(" wrench,"));
+    let (declared, told, angle) = match text.elbow {
+        true => (
+            format!("    {real} elbow[1];\n"),
+            format!("    {name}_elbow_angle(q{given}, elbow);\n"),
+            ", elbow[0]",
+        ),
+        false => (String::new(), String::new(), ""),
+    };
     format!(
         "
 {head}
 {{
     const {real} most = {most};
     {name}_{closed}_t begin;
-    unsigned int branch;
+{declared}    unsigned int branch;
 
-    {name}_{closed}(q{given}, target, &begin);
+{told}    {name}_{closed}(q{given}, target{angle}, &begin);
     for (branch = 0U; branch < {branches}U; branch++)
     {{
         const {real} *const joints = &begin.q[{n}U * branch];
-        const {name}_status_t status = follow(joints{given}, target, wrench,
-            &out->q[{n}U * branch], &out->distance[branch], &out->tilt[branch]);
 
-        if (status != {upper}_OK)
+        if ({branch}_of(joints{given}, target,{wrench} &out->q[{n}U * branch], &out->distance[branch],
+            &out->tilt[branch]) == 0)
         {{
             (void)memcpy(&out->q[{n}U * branch], joints, {n}U * sizeof joints[0]);
             out->distance[branch] = most + most;
