@@ -284,6 +284,7 @@ mod tests {
             outputs: Vec::new(),
             at: Vec::new(),
             inverse_kinematics: None,
+            redundancy: None,
         }
     }
 

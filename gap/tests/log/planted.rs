@@ -131,19 +131,6 @@ fn a_base_that_leans_is_named_with_its_angle() {
     close(numbers(&found, "gravity_direction", "the base")[2], 0.02, 0.1);
 }
 
-/// The links are where joint 2 has turned by 0.08 rad more than its column says.
-#[test]
-fn a_zero_is_named_with_its_angle() {
-    let log = recorded(31, |now| {
-        let (is, told) =
-            (rigid([now.q[0], now.q[1] + 0.08], now.v, now.a), rigid(now.q, now.v, now.a));
-        [is[0] - told[0], is[1] - told[1]]
-    });
-    let options = LogOptions { band: Some(10.0), known_links: true, ..LogOptions::default() };
-    let found = diagnose(&arm(), &log, &options).unwrap();
-    close(numbers(&found, "joint_offset", "joint 2")[0], 0.08, 0.02);
-}
-
 /// In a level plane: the encoder of joint 1 stands before its link by 1 mrad for each newton metre.
 #[test]
 fn a_gear_that_gives_is_named_with_its_compliance() {

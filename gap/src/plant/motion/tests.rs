@@ -9,7 +9,7 @@ use nalgebra::Matrix3;
 use super::*;
 use crate::effects::IN_MOTION;
 use crate::fixture::rigid;
-use crate::log::{Domain, Log, Signal, TorqueSide};
+use crate::log::{Domain, Log, LogOptions, Signal, TorqueSide, diagnose};
 use crate::motion::{Fourier, Limits, State};
 
 /// An elbow with inertias, rotors and friction.
@@ -419,4 +419,23 @@ fn a_command_is_what_its_drive_makes_of_it() {
     assert!(record::spread(&off) < 0.02 * size, "{} of {size}", record::spread(&off));
     let text = csv(&arm, Logged::Torque(Side::Commanded), &[asked], &[]);
     assert!(text.starts_with("# torque_side = commanded\n"), "{}", &text[..60]);
+}
+
+/// The joint is turned by 0.08 rad more than its column says, and with it all that it carries.
+#[test]
+fn a_zero_is_named_with_its_angle() {
+    let arm = arm();
+    let limits = Limits::of(&arm, &[1.5], &[5.0]).unwrap();
+    let course = Fourier::draw(&limits, 40.0, 6, &mut Rng::new(2, Stream::Poses));
+    let stages = [Stage { course: &course, payload: None }];
+    let zero = truth("joint_offset@joint 2=0.08");
+    let plant = MovingPlant::new(&arm, &[zero], MOTOR, Recording::default());
+    let recorded = plant.record(&stages, 4).unwrap();
+    let log = Log::of_arm(&arm, "log.csv", &csv(&arm, MOTOR, &recorded, &[])).unwrap();
+    let options = LogOptions { known_links: true, ..LogOptions::default() };
+    let found = diagnose(&arm, &log, &options).unwrap();
+    let first = &found.findings[0];
+    assert_eq!((&*first.effect, &*first.place), ("joint_offset", "joint 2"), "{found:#?}");
+    let offset = first.parameters[0].value;
+    assert!((offset - 0.08).abs() < 2e-3, "{offset}");
 }
