@@ -64,9 +64,9 @@ pub struct Args {
     /// Leave out of the comments what the effects are
     #[arg(long)]
     withhold: bool,
-    /// Where the measurement file goes
-    #[arg(long, value_name = "OUT", default_value = "-", conflicts_with = "log")]
-    csv: Target,
+    /// Where the measurement file goes [default: standard output]
+    #[arg(long, value_name = "OUT", conflicts_with = "log")]
+    csv: Option<Target>,
     /// Move the arm, and write a joint log there (`-`: to standard output)
     #[arg(
         long,
@@ -178,7 +178,8 @@ pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
         plant = plant.with_first_order_sim();
     }
     let measured = plant.seated(&plant.measure(&design, noise, seed)?)?;
-    host.write(&args.csv, &csv(&arm, &measured, &args.comments(&design, noise, &truths, &arm)))?;
+    let target = args.csv.as_ref().unwrap_or(&Target::Stdout);
+    host.write(target, &csv(&arm, &measured, &args.comments(&design, noise, &truths, &arm)))?;
     Ok(Verdict::Good)
 }
 
