@@ -16,7 +16,9 @@ pub fn effects<T: Clone>(
     let each = names.iter().map(|name| {
         let found = known.iter().find(|(known, _)| *known == name.trim());
         found.map(|(_, found)| found.clone()).ok_or_else(|| {
-            let known: Vec<&str> = known.iter().map(|(known, _)| *known).collect();
+            let mut known: Vec<&str> = known.iter().map(|(known, _)| *known).collect();
+            // At rest and in motion an effect has one name.
+            known.dedup();
             let meant = did_you_mean(nearest(name, known.iter().copied()));
             Failure::with_help(
                 format!("{option}found the unknown effect `{name}`{meant}"),

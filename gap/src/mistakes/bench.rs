@@ -6,10 +6,12 @@
 
 use core::f64::consts::{PI, TAU};
 
-use nalgebra::Vector6;
+use nalgebra::{Matrix3, Vector3, Vector6};
+use stiffarm_kernels::generic::Arm;
 
 use super::fit::{KEPT, Left};
 use super::kind::{Entry, Mistake};
+use super::rows::Rows;
 use super::search::{ORDINARY, Search};
 use crate::diagnose::{Options, Problem, aligned, prior_penalty, refit};
 use crate::gap::{ascending, rms};
@@ -17,6 +19,10 @@ use crate::measurement::{Kind, Measurements};
 
 /// Halvings of the step from one zero that is tried to the next, 15°: to a tenth of a milliradian.
 const HALVINGS: usize = 12;
+
+/// Part of the file's arm's thickness, the least spread of its tool, below which an arm moves in a plane: joints that are
+/// read otherwise than they are meant leave more than a half.
+const FLAT: f64 = 0.2;
 
 /// How many numbers a row has, where it has no pose.
 pub(super) fn numbers(data: &Measurements) -> Option<usize> {
@@ -26,6 +32,19 @@ pub(super) fn numbers(data: &Measurements) -> Option<usize> {
         Kind::Coordinates { components } => Some(components.iter().filter(|is| **is).count()),
         _ => None,
     }
+}
+
+/// Whether an arm moves its tool in a plane, or nearly so, where the file's arm does not: any plate would fit it.
+fn is_flat(arm: &Arm, data: &Measurements, told: &Arm, rows: &[usize], all: &Rows<'_>) -> bool {
+    let thickness = |arm: &Arm, readings: &mut dyn Iterator<Item = &Vec<f64>>| {
+        let points: Vec<Vector3<f64>> = readings.map(|q| arm.pose(q).translation.vector).collect();
+        let mean = points.iter().sum::<Vector3<f64>>() / points.len() as f64;
+        let spread = points.iter().map(|p| (p - mean) * (p - mean).transpose());
+        spread.sum::<Matrix3<f64>>().symmetric_eigenvalues().min().max(0.0).sqrt()
+    };
+    let is = thickness(arm, &mut data.rows.iter().map(|row| &row.q));
+    let was = thickness(told, &mut rows.iter().map(|row| &all.data.rows[*row].q));
+    is < FLAT * was
 }
 
 impl Search<'_> {
@@ -43,7 +62,7 @@ impl Search<'_> {
         let known = super::known(mistakes, &options.known, &options.catalogue);
         let options =
             Options { effects: Some(Vec::new()), geometry: along, known, ..options.clone() };
-        if 2 * data.rows.len() < rows.len() {
+        if 2 * data.rows.len() < rows.len() || is_flat(&arm, &data, self.arm, rows, &self.rows) {
             return None;
         }
         let problem = Problem::new(&arm, &data, &options).ok()?;

@@ -17,6 +17,9 @@ pub(super) const ORDINARY: f64 = 1e-3;
 /// Of the reach: what a mistake that is named may leave: fifteen times as much as the worst of those arms.
 const EXPLAINED: f64 = 0.02;
 
+/// The same of what a bench reads, which says less of each row: springs that the file lacks leave 0.003.
+const EXPLAINED_OF_BENCH: f64 = 5e-3;
+
 /// Of the reach: a gap that no mistake makes smaller is no arm's. Rows of other poses leave 0.38 at least, arms
 /// 0.0013 at most, 25 and 200 of `tests/withheld/mistakes.rs`.
 pub(super) const UNEXPLAINED: f64 = 0.05;
@@ -53,6 +56,9 @@ const BEST_PAIRS: usize = 48;
 
 /// Of the mistakes in what a bench reads so many are fitted with the table along.
 const BEST_OF_BENCH: usize = 12;
+
+/// With so many of them, those that leave least, another one is looked for.
+const FIRST_OF_BENCH: usize = 4;
 
 /// Part by which what the frames leave changes at least where a mistake does more than to move a frame;
 /// rounding is far below.
@@ -190,7 +196,8 @@ impl Search<'_> {
                 false => (part, CERTAIN),
             };
             let ends = one.left.size <= part * against.left.size;
-            let is_explained = one.left.size <= EXPLAINED * self.reach_without(&one.mistakes);
+            let most = if self.bench.is_some() { EXPLAINED_OF_BENCH } else { EXPLAINED };
+            let is_explained = one.left.size <= most * self.reach_without(&one.mistakes);
             ends && is_explained && gain > tried_all + certain
         });
         tried.sort_by(|a, b| self.score(b, floor).total_cmp(&self.score(a, floor)));
@@ -239,6 +246,13 @@ impl Search<'_> {
         self.refined(pairs, BEST_PAIRS)
     }
 
+    /// Pairs with those of some mistakes that leave least.
+    fn pairs_with(&self, mut singles: Vec<Tried>) -> Vec<Tried> {
+        singles.sort_by(|a, b| a.left.size.total_cmp(&b.left.size));
+        let first = singles.into_iter().take(FIRST_OF_BENCH);
+        first.flat_map(|first| self.beside(&first.mistakes)).collect()
+    }
+
     /// The mistakes. `nothing` is the file as it is.
     pub(super) fn run(&self, nothing: &Tried, is_stream: bool) -> Found {
         let is_large = nothing.left.size > ORDINARY * self.reach;
@@ -256,7 +270,7 @@ impl Search<'_> {
         };
         let mut first = self.best(nothing, MOST_LEFT, singles.clone());
         if !first.as_ref().is_some_and(is_plain) {
-            first = self.best(nothing, MOST_LEFT, [singles, self.offs(&[])].concat());
+            first = self.best(nothing, MOST_LEFT, [singles.clone(), self.offs(&[])].concat());
         }
         if let Some((first, same)) = first {
             if first.mistakes.iter().any(|mistake| mistake.is_small(self.reach)) {
@@ -270,11 +284,11 @@ impl Search<'_> {
             }
             return Found::Mistakes(first, same);
         }
-        let looked = self.bench.is_none().then(|| self.pairs()).unwrap_or_default();
-        let pairs = self.best(nothing, MOST_LEFT, looked);
-        let with_zeros = || self.bench.is_none().then(|| self.pairs_with_zeros());
-        let pairs =
-            pairs.or_else(|| self.best(nothing, MOST_LEFT, with_zeros().unwrap_or_default()));
+        let best = |pairs| self.best(nothing, MOST_LEFT, pairs);
+        let pairs = match self.bench {
+            Some(_) => best(self.pairs_with(singles)),
+            None => best(self.pairs()).or_else(|| best(self.pairs_with_zeros())),
+        };
         if let Some((pair, same)) = pairs {
             return Found::Mistakes(pair, same);
         }
