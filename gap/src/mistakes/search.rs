@@ -17,9 +17,6 @@ pub(super) const ORDINARY: f64 = 1e-3;
 /// Of the reach: what a mistake that is named may leave: fifteen times as much as the worst of those arms.
 const EXPLAINED: f64 = 0.02;
 
-/// The same of what a bench reads, which says less of each row: springs that the file lacks leave 0.003.
-const EXPLAINED_OF_BENCH: f64 = 5e-3;
-
 /// Of the reach: a gap that no mistake makes smaller is no arm's. Rows of other poses leave 0.38 at least, arms
 /// 0.0013 at most, 25 and 200 of `tests/withheld/mistakes.rs`.
 pub(super) const UNEXPLAINED: f64 = 0.05;
@@ -196,8 +193,7 @@ impl Search<'_> {
                 false => (part, CERTAIN),
             };
             let ends = one.left.size <= part * against.left.size;
-            let most = if self.bench.is_some() { EXPLAINED_OF_BENCH } else { EXPLAINED };
-            let is_explained = one.left.size <= most * self.reach_without(&one.mistakes);
+            let is_explained = one.left.size <= EXPLAINED * self.reach_without(&one.mistakes);
             ends && is_explained && gain > tried_all + certain
         });
         tried.sort_by(|a, b| self.score(b, floor).total_cmp(&self.score(a, floor)));
