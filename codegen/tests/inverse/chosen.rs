@@ -2,7 +2,7 @@
 
 use nalgebra::{Isometry3, Vector3};
 use stiffarm_codegen::derive::{AsItIs, Given};
-use stiffarm_codegen::emit::latex;
+use stiffarm_codegen::emit::{latex, python};
 use stiffarm_codegen::number::Number;
 use stiffarm_codegen::robot::{ClosedForm, Family, Redundancy, Robot, Value};
 use stiffarm_draws::Draws;
@@ -277,6 +277,10 @@ fn an_offset_wrist_is_searched() {
     robot.joints[4].d = Value::Number(Number::rounded(0.15));
     let form = robot.nearest_closed_form().expect("a search");
     assert!(form.is_search(), "{form:?}");
+    robot.inverse_kinematics = Some(form);
+    let no = "is a search, not a closed form, and is written as rust alone";
+    let told = [python(&robot), latex(&robot, &[])].map(|text| text.expect_err("a search"));
+    assert!(told.iter().all(|told| told.to_string().ends_with(no)), "{told:?}");
 }
 
 /// The formulas on paper: the same steps as in every other text.
@@ -284,7 +288,7 @@ fn an_offset_wrist_is_searched() {
 fn the_inverse_is_written_as_latex() {
     let mut robot = built_in("kuka_kr240");
     robot.inverse_kinematics = Some(robot.closed_form().expect("a closed form"));
-    let text = latex(&robot, &[]);
+    let text = latex(&robot, &[]).expect("a closed form");
     assert!(text.contains("\\subsection*{inverse kinematics}"), "{text}");
     assert!(text.contains("q_{6}^{(8)} &= "), "{text}");
     assert!(text.contains("\\mathit{distance}^{(8)} &= "), "{text}");
