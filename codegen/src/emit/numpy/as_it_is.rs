@@ -78,9 +78,10 @@ fn function(
          its axes are turned, twice the sine of half the angle. A branch in which the arm does not bear its load misses the \
          target by inf."
             .to_owned(),
-        "q: readings near which free joints stay; target: pose of the tool: its axes x, y, z, its origin; wrench: force and \
-         moment on the tool, in N and N*m."
-            .to_owned(),
+        format!(
+            "q: readings near which free joints stay; target: pose of the tool: its axes x, y, z, its origin{}.",
+            if loaded { "; wrench: force and moment on the tool, in N and N*m" } else { "" }
+        ),
     ];
     docstring(out, &said[..]);
     check(out, &given);
