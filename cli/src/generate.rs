@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 use clap::ValueEnum;
 use stiffarm_codegen::derive::{Displacements, Output};
 use stiffarm_codegen::emit::{
-    CFiles, COptions, CudaOptions, FILE_HEAD, Precision, RustOptions, Sines, SymbolicTable, c,
-    c_name, cuda, dot, flexible_latex, flexible_rust, latex, mjcf, python, rust, urdf,
+    CFiles, COptions, CudaOptions, FILE_HEAD, NotWritten, Precision, RustOptions, Sines,
+    SymbolicTable, c, c_name, cuda, dot, flexible_latex, flexible_rust, latex, mjcf, python, rust,
+    urdf,
 };
 use stiffarm_codegen::robot::{Refused, Robot, Wanted};
 use stiffarm_kernels::generic::BaseParameter;
@@ -48,8 +49,9 @@ pub struct Args {
     /// What to write
     #[arg(long, value_enum)]
     emit: Emit,
-    /// What to write: outputs, separated by commas, of a named frame or a marker as in `pose at elbow` [default:
-    /// what the robot file says, else all of the tool; of dot the Jacobian]
+    /// What to write: outputs, separated by commas, of a named frame or a marker as in `pose at elbow`, of seven joints
+    /// with one given as in `inverse_kinematics given 1` or `given elbow_angle` [default: what the robot file says, else
+    /// all of the tool; of dot the Jacobian]
     #[arg(long, alias = "output", value_name = "LIST", value_delimiter = ',')]
     #[arg(value_parser = |text: &str| Wanted::read(text).map_err(told))]
     outputs: Vec<Wanted>,
@@ -162,7 +164,6 @@ pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
             robot.want(wanted).map_err(refused)?;
         }
     }
-    args.has_inverse(&source.robot)?;
     let all = &source.robot.outputs;
     source.refuse_motion(if all.is_empty() { &Output::EACH } else { all })?;
     let mut verdict = Verdict::Good;
@@ -244,33 +245,15 @@ impl Args {
         ))
     }
 
-    /// What is behind the inverse kinematics has to be written in the language, too.
-    fn has_inverse(&self, robot: &Robot) -> Result<(), Failure> {
-        let exact = robot.is_as_its_table() && robot.closed_form().is_ok();
-        let (what, written) = match (robot.inverse_kinematics, self.emit) {
-            (Some(form), emit) if form.is_search() && emit != Emit::Rust => {
-                ("a search, not a closed form", "rust")
-            }
-            (Some(_), Emit::Python | Emit::Cuda | Emit::Latex) if !exact => {
-                ("a closed form of another table with steps behind it", "rust or c")
-            }
-            _ => return Ok(()),
-        };
-        Err(Failure::with_help(
-            format!(
-                "`inverse_kinematics` of this arm is {what}, and is written as {written} alone"
-            ),
-            format!("write {written}, or leave it out of the outputs"),
-        ))
-    }
-
     /// What is to be written; C has two files, with names of their own.
     fn files(&self, source: &Source) -> Result<Vec<(Option<String>, String)>, Failure> {
         let robot = &source.robot;
         let text = match (self.emit, &self.flexible) {
             (Emit::C, _) => return self.c(source),
             (_, Some(list)) => self.flexible(list, source)?,
-            (Emit::Latex, None) => latex(robot, &robot.generated()),
+            (Emit::Latex, None) => {
+                latex(robot, &robot.generated()).map_err(|error| refused(robot, &error))?
+            }
             (Emit::Dot, None) => match robot.outputs.as_slice() {
                 [] => dot(robot, &[Output::Jacobian]),
                 outputs => dot(robot, outputs),
@@ -279,11 +262,11 @@ impl Args {
             (Emit::Mjcf, None) => mjcf(robot).map_err(|error| symbolic(robot, &error))?,
             (Emit::Base, None) => base(robot)?,
             (Emit::Rust, None) => rust(robot, &self.options()),
-            (Emit::Python, None) => python(robot),
+            (Emit::Python, None) => python(robot).map_err(|error| refused(robot, &error))?,
             (Emit::Cuda, None) => {
                 let options =
                     CudaOptions { name: self.c_name(source)?, precision: self.precision() };
-                cuda(robot, &options).map_err(|error| symbolic(robot, &error))?
+                cuda(robot, &options).map_err(|error| refused(robot, &error))?
             }
         };
         let head = if self.emit == Emit::Rust { FILE_HEAD } else { "" };
@@ -294,7 +277,7 @@ impl Args {
     fn c(&self, source: &Source) -> Result<Vec<(Option<String>, String)>, Failure> {
         let options = self.c_options(source)?;
         let CFiles { header, source: text } =
-            c(&source.robot, &options).map_err(|error| symbolic(&source.robot, &error))?;
+            c(&source.robot, &options).map_err(|error| refused(&source.robot, &error))?;
         let file = |end: &str| Some(format!("{}.{end}", options.name));
         Ok(vec![(file("c"), text), (file("h"), header)])
     }
@@ -369,6 +352,16 @@ impl Args {
 fn symbolic(robot: &Robot, error: &SymbolicTable) -> Failure {
     let message = format!("{}: {error}", robot.name);
     Failure::with_help(message, "write the numbers into a copy of the robot file")
+}
+
+fn refused(robot: &Robot, error: &NotWritten) -> Failure {
+    match error {
+        NotWritten::Symbolic(table) => symbolic(robot, table),
+        NotWritten::Inverse { written, .. } => Failure::with_help(
+            error.to_string(),
+            format!("write {written}, or leave it out of the outputs"),
+        ),
+    }
 }
 
 /// The first line that differs, from 1, as it is in either text.

@@ -7,7 +7,8 @@ use stiffarm_codegen::emit::{dot, latex};
 
 #[test]
 fn latex_is_balanced_and_speaks_the_papers_notation() {
-    let text = latex(&common::kr240(), &[Output::Jacobian, Output::Deflection]);
+    let text =
+        latex(&common::kr240(), &[Output::Jacobian, Output::Deflection]).expect("no inverse");
     let count = |c: char| text.matches(c).count();
     assert_eq!(count('{'), count('}'));
     assert_eq!(text.matches("\\left(").count(), text.matches("\\right)").count());
@@ -23,7 +24,7 @@ fn latex_keeps_symbols() {
     let mut robot = common::ur5();
     robot.joints[1].a = stiffarm_codegen::robot::Value::Symbol("a2".into());
     robot.joints[2].theta = stiffarm_codegen::robot::Angle::Symbol("t3".into());
-    let text = latex(&robot, &[Output::Pose]);
+    let text = latex(&robot, &[Output::Pose]).expect("no inverse");
     assert!(text.contains("a_{2}"), "{text}");
     assert!(text.contains("\\sin(q_{2}+q_{3}+t_{3})"), "{text}");
 }

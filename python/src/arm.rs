@@ -200,6 +200,7 @@ impl Arm {
     /// Every branch of the inverse kinematics at one pose or many (4, 4), near readings `near`; of the loaded arm where there is a
     /// `wrench` (6,), base axes; `kept` is what is given of seven joints, `elbow_angle` that angle where it is not near's.
     #[pyo3(signature = (pose, near=None, wrench=None, sides=None, warming=None, kept=None, elbow_angle=None))]
+    #[allow(clippy::too_many_arguments, reason = "they are those of the method in Python")]
     fn branches<'py>(
         &self,
         py: Python<'py>,

@@ -58,6 +58,7 @@ fn called(asked: &Asked) -> String {
 /// # Errors
 /// A sentence where the table has no numbers.
 pub fn source(robot: &Robot) -> Result<String, String> {
+    let robot = &Robot { inverse_kinematics: None, ..robot.clone() };
     let options =
         COptions { name: NAME.to_owned(), precision: Precision::F64, sines: Sines::Polynomial };
     let files = c(robot, &options).map_err(|error| error.to_string())?;

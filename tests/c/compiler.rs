@@ -20,6 +20,22 @@ const STRICT: [&str; 9] = [
     "-Werror",
 ];
 
+/// What of CUDA the text uses, for a C compiler.
+pub const CUDA: &str = "
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#define __global__ static
+#define __device__
+static struct { unsigned int x; } threadIdx, blockIdx, blockDim;
+static inline void sincos(double x, double *s, double *c) { *s = sin(x); *c = cos(x); }
+#define LAUNCH(kernel) \\
+    for (blockIdx.x = 0U; blockIdx.x * blockDim.x < COUNT; blockIdx.x++) \\
+        for (threadIdx.x = 0U; threadIdx.x < blockDim.x; threadIdx.x++) \\
+            kernel
+";
+
 /// A test for each compiler from a function that takes its name. With `cc` Rust itself links on Unix, so that
 /// it is there; what else is needed is ignored, and run where `--ignored` asks for it.
 macro_rules! with_each_compiler {

@@ -8,25 +8,9 @@ use stiffarm_codegen::emit::{CudaOptions, Precision, cuda};
 use stiffarm_codegen::robot::Robot;
 
 use crate::batch::{Batch, Case};
-use crate::compiler::{Folder, compile, run};
+use crate::compiler::{CUDA, Folder, compile, run};
 
-/// What of CUDA the text uses, for a C compiler.
-const SHIM: &str = "
-#include <inttypes.h>
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-#define __global__ static
-#define __device__
-static struct { unsigned int x; } threadIdx, blockIdx, blockDim;
-static inline void sincos(double x, double *s, double *c) { *s = sin(x); *c = cos(x); }
-#define LAUNCH(kernel) \\
-    for (blockIdx.x = 0U; blockIdx.x * blockDim.x < COUNT; blockIdx.x++) \\
-        for (threadIdx.x = 0U; threadIdx.x < blockDim.x; threadIdx.x++) \\
-            kernel
-";
-
-/// The same for a GPU's compiler without CUDA's headers and libraries.
+/// What of CUDA the text uses, for a GPU's compiler without CUDA's headers and libraries.
 const DECLARATIONS: &str = "
 #define __global__ __attribute__((global))
 #define __device__ __attribute__((device))
@@ -95,7 +79,7 @@ fn main(robot: &Robot, count: usize) -> String {
     }
     let all: String = Output::ALL.iter().map(|o| format!(", out_all_{}", o.name())).collect();
     format!(
-        "{SHIM}#define COUNT {count}U
+        "{CUDA}#define COUNT {count}U
 #include \"arm.cu\"
 {arrays}static unsigned char status_all[COUNT];
 

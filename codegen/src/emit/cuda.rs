@@ -1,14 +1,15 @@
 //! The printer of CUDA C: the C printer's functions as a GPU's, and for each a kernel with one posture a thread.
 
-use super::asked;
 use super::c::comment::{FOR_CPP, harmless, plain};
 use super::c::header::{sentences, structures};
+use super::c::set_points;
 use super::c::source::systems;
-use super::c::{COptions, Module, Precision, Sines, SymbolicTable};
+use super::c::{COptions, Module, Precision, Sines};
 use super::cells::world;
 use super::hash::provenance;
 use super::legend::legend;
 use super::lines::Lines;
+use super::{NotWritten, asked, has_inverse};
 use crate::derive::Program;
 use crate::ir::{Extra, Function};
 use crate::robot::Robot;
@@ -25,8 +26,8 @@ pub struct CudaOptions {
 /// The kernels of a robot as one file of CUDA C. The same table and options always give the same bytes.
 ///
 /// # Errors
-/// [`SymbolicTable`] where a cell of the table is no number.
-pub fn cuda(robot: &Robot, options: &CudaOptions) -> Result<String, SymbolicTable> {
+/// [`NotWritten`] where a cell of the table is no number, or the inverse kinematics is a search.
+pub fn cuda(robot: &Robot, options: &CudaOptions) -> Result<String, NotWritten> {
     cuda_with(robot, &[], options)
 }
 
@@ -35,7 +36,8 @@ pub(crate) fn cuda_with(
     robot: &Robot,
     own: &[&Program],
     CudaOptions { name, precision }: &CudaOptions,
-) -> Result<String, SymbolicTable> {
+) -> Result<String, NotWritten> {
+    has_inverse(robot, true)?;
     let options = COptions { name: name.clone(), precision: *precision, sines: Sines::Math };
     let module = Module::new(robot, own, &options, true)?;
     let mut body = Lines::default();
@@ -45,7 +47,11 @@ pub(crate) fn cuda_with(
     for function in module.functions() {
         function.write_by_posture(&mut body);
         function.write_by_joints(&mut body);
-        kernel(&module, function.of, &mut body);
+        kernel(&module, &Batch::of(&module, function.of), &mut body);
+    }
+    set_points::written(&module, &mut body);
+    for (name, takes, branches) in set_points::functions(&module) {
+        kernel(&module, &Batch::of_set_points(&module, name, takes, branches), &mut body);
     }
     let body = body.finish();
     let mut out = Lines::default();
@@ -107,53 +113,96 @@ fn head(module: &Module, precision: Precision, out: &mut Lines) {
     }
     out.blank();
     structures(module, out);
+    set_points::declared(module, out);
 }
 
-/// The kernel of a function: each thread takes its posture out of the arrays and puts its result into them.
-fn kernel(module: &Module, of: &Function, out: &mut Lines) {
-    let (robot, name, real) = (module.name(), of.full_name(), module.language.real());
+/// What a kernel takes and writes.
+struct Batch {
+    name: String,
+    said: Vec<String>,
+    /// Name, how many numbers a posture has (none: one that is no array), whether all postures share it.
+    given: Vec<(&'static str, Option<usize>, bool)>,
+    arguments: Vec<(String, Option<usize>)>,
+    /// Name, how many numbers, whether the load decides on them.
+    written: Vec<(String, usize, bool)>,
+    fallible: bool,
+}
+
+impl Batch {
+    fn of(module: &Module, of: &Function) -> Batch {
+        let n = module.ir.robot.dof();
+        let written = of.blocks().iter().map(|block| {
+            let (rows, columns) = block.held.shape(n);
+            let name = if of.blocks().len() > 1 { block.held.name() } else { "out" };
+            (name.to_owned(), rows * columns, super::c::may_fail(block))
+        });
+        Batch {
+            name: of.full_name(),
+            said: sentences(module, of),
+            given: given(module),
+            arguments: of.arguments.iter().map(|a| (a.name.clone(), a.size)).collect(),
+            written: written.collect(),
+            fallible: of.fallible(),
+        }
+    }
+
+    /// Of the arm as it is.
+    fn of_set_points(
+        module: &Module,
+        name: &str,
+        takes: Vec<(&str, usize)>,
+        branches: usize,
+    ) -> Batch {
+        let q = ("q", module.ir.robot.dof() * branches);
+        let written = [q, ("distance", branches), ("tilt", branches)];
+        Batch {
+            name: name.to_owned(),
+            said: vec!["Every branch of the arm as it is.".to_owned()],
+            given: given(module),
+            arguments: takes.into_iter().map(|(a, size)| (a.to_owned(), Some(size))).collect(),
+            written: written.map(|(name, size)| (name.to_owned(), size, false)).to_vec(),
+            fallible: false,
+        }
+    }
+}
+
+/// Readings, and what is given beside them.
+fn given(module: &Module) -> Vec<(&'static str, Option<usize>, bool)> {
     let n = module.ir.robot.dof();
-    // Name, how many numbers a posture has, whether all postures share it.
-    let mut given = vec![("q", n, false)];
-    given.extend(module.ir.readings.extras.iter().map(|extra| match extra {
-        Extra::Sides => (extra.name(), n, false),
-        Extra::Warming => (extra.name(), 1, true),
-    }));
-    let scalars: Vec<&str> =
-        of.arguments.iter().filter(|a| a.size.is_none()).map(|a| &*a.name).collect();
-    given.extend(of.arguments.iter().map(|a| (a.name.as_str(), a.size.unwrap_or(1), false)));
-    let size = |block: &crate::derive::Block| {
-        let (rows, columns) = block.held.shape(n);
-        rows * columns
-    };
-    let written: Vec<(&str, String, usize)> = match of.blocks() {
-        [block] => vec![("out", "result".to_owned(), size(block))],
-        blocks => blocks
-            .iter()
-            .map(|block| (block.held.name(), format!("result.{}", block.held.name()), size(block)))
-            .collect(),
-    };
+    let extras = module.ir.readings.extras.iter().map(|extra| match extra {
+        Extra::Sides => (extra.name(), Some(n), false),
+        Extra::Warming => (extra.name(), None, true),
+    });
+    core::iter::once(("q", Some(n), false)).chain(extras).collect()
+}
+
+/// Each thread takes its posture out of the arrays and puts its result into them.
+fn kernel(module: &Module, of: &Batch, out: &mut Lines) {
+    let (robot, name, real) = (module.name(), &of.name, module.language.real());
+    let own = of.arguments.iter().map(|(name, size)| (name.as_str(), *size, false));
+    let given: Vec<_> = of.given.iter().copied().chain(own).collect();
+    let single = of.written.len() == 1;
     let mut parameters = vec!["unsigned long long count".to_owned()];
     parameters.extend(given.iter().map(|(name, _, shared)| match shared {
         true => format!("{real} {name}"),
         false => format!("const {real} *{name}"),
     }));
-    parameters.extend(written.iter().map(|(to, ..)| format!("{real} *{to}_of")));
-    if of.fallible() {
+    parameters.extend(of.written.iter().map(|(to, ..)| format!("{real} *{to}_of")));
+    if of.fallible {
         parameters.push("unsigned char *status_of".to_owned());
     }
     out.blank();
-    out.comment(&sentences(module, of));
+    out.comment(&of.said);
     out.code(&format!("__global__ void {robot}_{name}_batch({})", parameters.join(", ")));
     out.braces(|out| {
         out.code("const unsigned long long at =");
         out.code("    (unsigned long long)blockIdx.x * blockDim.x + threadIdx.x;");
         for (name, size, _) in given.iter().filter(|(.., shared)| !shared) {
-            out.code(&format!("{real} {name}_at[{size}];"));
+            out.code(&format!("{real} {name}_at[{}];", size.unwrap_or(1)));
         }
-        match of.blocks() {
-            [_] => out.code(&format!("{real} result[{}];", written[0].2)),
-            _ => out.code(&format!("{robot}_{name}_t result;")),
+        match single {
+            true => out.code(&format!("{real} result[{}];", of.written[0].1)),
+            false => out.code(&format!("{robot}_{name}_t result;")),
         }
         out.code("unsigned int k;");
         out.blank();
@@ -164,26 +213,23 @@ fn kernel(module: &Module, of: &Function, out: &mut Lines) {
             out.braces(|out| out.code(text));
         };
         for (name, size, _) in given.iter().filter(|(.., shared)| !shared) {
-            each(out, *size, &format!("{name}_at[k] = {name}[k * count + at];"));
+            each(out, size.unwrap_or(1), &format!("{name}_at[k] = {name}[k * count + at];"));
         }
-        let arguments =
-            given.iter().map(|(name, _, shared)| match (shared, scalars.contains(name)) {
-                (true, _) => (*name).to_owned(),
-                (false, true) => format!("{name}_at[0]"),
-                (false, false) => format!("{name}_at"),
-            });
-        let result = if of.blocks().len() > 1 { "&result" } else { "result" };
+        let arguments = given.iter().map(|(name, size, shared)| match (shared, size) {
+            (true, _) => (*name).to_owned(),
+            (false, None) => format!("{name}_at[0]"),
+            (false, Some(_)) => format!("{name}_at"),
+        });
+        let result = if single { "result" } else { "&result" };
         let arguments = arguments.chain([result.to_owned()]).collect::<Vec<_>>().join(", ");
         let call = format!("{robot}_{name}({arguments})");
-        let put = |out: &mut Lines, fails: bool| {
-            let blocks = of.blocks().iter().zip(&written);
-            for (_, (to, from, size)) in
-                blocks.filter(|(block, _)| super::c::may_fail(block) == fails)
-            {
+        let put = |out: &mut Lines, load: bool| {
+            for (to, size, _) in of.written.iter().filter(|(.., fails)| *fails == load) {
+                let from = if single { "result".to_owned() } else { format!("result.{to}") };
                 each(out, *size, &format!("{to}_of[k * count + at] = {from}[k];"));
             }
         };
-        if of.fallible() {
+        if of.fallible {
             out.code(&format!("status_of[at] = (unsigned char){call};"));
             put(out, false);
             out.code("if (status_of[at] == 0U)");

@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 use stiffarm_kernels::{Form, Output};
 
+use super::{NotWritten, has_inverse};
 use crate::derive::{
     COMPONENTS, Displacements, Form as Flexible, Held, Program, Quantity, Size, derive, flexible,
     inverse,
@@ -13,13 +14,17 @@ use crate::robot::Robot;
 
 /// A document with the closed form of each of `outputs`, and of the inverse kinematics where the arm is asked for it: what
 /// is shared first, then every entry that is not structurally zero. Rows and columns count from 1, as on paper.
-pub fn latex(robot: &Robot, outputs: &[Output]) -> String {
+///
+/// # Errors
+/// [`NotWritten`] where the inverse kinematics is no closed form of the arm itself.
+pub fn latex(robot: &Robot, outputs: &[Output]) -> Result<String, NotWritten> {
+    has_inverse(robot, false)?;
     let sections = outputs
         .iter()
         .map(|output| section(derive(robot, &[*output]), &output.name().replace('_', " ")));
-    let form = robot.inverse_kinematics.filter(|form| !form.is_search());
-    let inverse = form.map(|form| section(inverse(robot, form), "inverse kinematics"));
-    document(robot, sections.chain(inverse))
+    let inverse =
+        robot.inverse_kinematics.map(|form| section(inverse(robot, form), "inverse kinematics"));
+    Ok(document(robot, sections.chain(inverse)))
 }
 
 /// A document with the flexible kinematics of a table (Jweeg & Al-Khafaji 2012, eq. 20) in each of

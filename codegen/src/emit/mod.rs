@@ -39,7 +39,56 @@ pub use rust::{FILE_HEAD, RustOptions, flexible_rust, rust};
 #[cfg(feature = "urdf")]
 pub use urdf::urdf;
 
-use crate::robot::Robot;
+use core::fmt;
+
+use crate::robot::{ClosedForm, Robot};
+
+/// What a language's text is not written of.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum NotWritten {
+    /// C and CUDA: a table with parameters without numbers.
+    Symbolic(SymbolicTable),
+    /// An inverse kinematics that is no closed form of the arm itself.
+    Inverse {
+        /// What it is.
+        is: &'static str,
+        /// The languages that have it.
+        written: &'static str,
+    },
+}
+
+impl fmt::Display for NotWritten {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            NotWritten::Symbolic(table) => table.fmt(f),
+            NotWritten::Inverse { is, written } => write!(
+                f,
+                "`inverse_kinematics` of this arm is {is}, and is written as {written} alone"
+            ),
+        }
+    }
+}
+
+impl core::error::Error for NotWritten {}
+
+impl From<SymbolicTable> for NotWritten {
+    fn from(table: SymbolicTable) -> Self {
+        NotWritten::Symbolic(table)
+    }
+}
+
+/// Refuses a search, which Rust alone has, and steps where the language has none.
+fn has_inverse(robot: &Robot, steps: bool) -> Result<(), NotWritten> {
+    let exact = robot.is_as_its_table() && robot.closed_form().is_ok();
+    let (is, written) = match robot.inverse_kinematics {
+        Some(form) if ClosedForm::is_search(form) => ("a search, not a closed form", "rust"),
+        Some(_) if !steps && !exact => {
+            ("a closed form of another table with steps behind it", "rust, c, cuda or python")
+        }
+        _ => return Ok(()),
+    };
+    Err(NotWritten::Inverse { is, written })
+}
 
 /// How a command asks for the outputs of a robot, where they are not all of its tool's.
 fn asked(robot: &Robot) -> String {

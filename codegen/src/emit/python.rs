@@ -1,26 +1,33 @@
 //! The printer of Python: a module of functions on NumPy's arrays, whose leading axes are batches.
 
+#[path = "numpy/as_it_is.rs"]
+mod as_it_is;
+
 use stiffarm_kernels::Form;
 
-use super::asked;
 use super::cells::world;
 use super::docs::{ALL_ZERO, docs, inputs};
 use super::hash::provenance;
 use super::legend::legend;
 use super::lines::{Lines, WIDTH};
 use super::literal::constant;
+use super::{NotWritten, asked, has_inverse};
 use crate::derive::{Held, Program, Size};
 use crate::ir::{Angle, Function, Module, Operation, Plain, Solve, Statement, Style, Term};
 use crate::number::Number;
 use crate::robot::Robot;
 
 /// The kernels of a robot as a module of Python that needs NumPy alone. The same table always gives the same bytes.
-pub fn python(robot: &Robot) -> String {
+///
+/// # Errors
+/// [`NotWritten`] where the inverse kinematics is a search.
+pub fn python(robot: &Robot) -> Result<String, NotWritten> {
     python_with(robot, &[])
 }
 
 /// The same with functions of one's own.
-pub(crate) fn python_with(robot: &Robot, own: &[&Program]) -> String {
+pub(crate) fn python_with(robot: &Robot, own: &[&Program]) -> Result<String, NotWritten> {
+    has_inverse(robot, true)?;
     let module = Module::new(robot, own, false);
     let mut out = Lines::default();
     head(&module, &mut out);
@@ -31,9 +38,10 @@ pub(crate) fn python_with(robot: &Robot, own: &[&Program]) -> String {
         joints(&module, &mut out);
     }
     for of in module.functions() {
-        Printer { of, module: &module }.function(&mut out);
+        Printer { of, module: &module, at_joints: false }.function(&mut out);
     }
-    out.finish()
+    as_it_is::functions(&module, &mut out);
+    Ok(out.finish())
 }
 
 /// How Python spells terms; `constants` stands before a field of the constants.
@@ -283,6 +291,8 @@ impl Shape {
 struct Printer<'a> {
     of: &'a Function,
     module: &'a Module<'a>,
+    /// Whether it takes joint values, not readings, and is for this module alone.
+    at_joints: bool,
 }
 
 impl Printer<'_> {
@@ -291,9 +301,16 @@ impl Printer<'_> {
         given.extend(self.of.arguments.iter().map(|a| (name(&a.name), a.size)));
         let first = if self.module.is_symbolic() { "constants, " } else { "" };
         out.verbatim("\n\n");
-        out.code(&format!("def {}({first}{}):", self.of.full_name(), parameters(&given)));
+        let name = match self.at_joints {
+            true => format!("_{}_at", self.of.full_name()),
+            false => self.of.full_name(),
+        };
+        out.code(&format!("def {name}({first}{}):", parameters(&given)));
         out.indent();
-        docstring(out, &self.docs());
+        match self.at_joints {
+            true => docstring(out, &["The same at joint values, not at readings.".to_owned()]),
+            false => docstring(out, &self.docs()),
+        }
         check(out, &given);
         self.inputs(out);
         for block in self.of.blocks() {
@@ -352,7 +369,7 @@ impl Printer<'_> {
     fn inputs(&self, out: &mut Lines) {
         let readings = &self.module.readings;
         let posture = &self.of.posture;
-        if readings.moves && posture.reads_joints() {
+        if readings.moves && !self.at_joints && posture.reads_joints() {
             out.code(&format!("q = joints(q{})", readings.handed_on()));
         }
         sines(out, &self.of.angles, &IN_FUNCTION);

@@ -7,7 +7,7 @@ use super::function::Function;
 use super::mistake::Refused;
 use crate::derive::Program;
 use crate::emit::{
-    CFiles, COptions, CudaOptions, RustOptions, SymbolicTable, c_with, cuda_with, python_with,
+    CFiles, COptions, CudaOptions, NotWritten, RustOptions, c_with, cuda_with, python_with,
     rust_with,
 };
 use crate::expr::term::Mistake;
@@ -65,21 +65,24 @@ impl<'r> Module<'r> {
     /// Both files in C, like [`c`](crate::emit::c).
     ///
     /// # Errors
-    /// [`SymbolicTable`] where a cell of the table is no number.
-    pub fn c(&self, options: &COptions) -> Result<CFiles, SymbolicTable> {
+    /// [`NotWritten`] where a cell of the table is no number, or the inverse kinematics is a search.
+    pub fn c(&self, options: &COptions) -> Result<CFiles, NotWritten> {
         c_with(self.robot, &self.programs(), options)
     }
 
     /// The module in Python, like [`python`](crate::emit::python).
-    pub fn python(&self) -> String {
+    ///
+    /// # Errors
+    /// [`NotWritten`] where the inverse kinematics is a search.
+    pub fn python(&self) -> Result<String, NotWritten> {
         python_with(self.robot, &self.programs())
     }
 
     /// The file in CUDA C, like [`cuda`](crate::emit::cuda).
     ///
     /// # Errors
-    /// [`SymbolicTable`] where a cell of the table is no number.
-    pub fn cuda(&self, options: &CudaOptions) -> Result<String, SymbolicTable> {
+    /// [`NotWritten`] where a cell of the table is no number, or the inverse kinematics is a search.
+    pub fn cuda(&self, options: &CudaOptions) -> Result<String, NotWritten> {
         cuda_with(self.robot, &self.programs(), options)
     }
 

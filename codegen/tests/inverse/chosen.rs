@@ -2,7 +2,7 @@
 
 use nalgebra::{Isometry3, Vector3};
 use stiffarm_codegen::derive::{AsItIs, Given};
-use stiffarm_codegen::emit::latex;
+use stiffarm_codegen::emit::{latex, python};
 use stiffarm_codegen::number::Number;
 use stiffarm_codegen::robot::{ClosedForm, Family, Redundancy, Robot, Value};
 use stiffarm_draws::Draws;
@@ -79,20 +79,18 @@ fn reached<const N: usize>(
     found.into_iter().filter(reaches).map(|solution| solution.q).collect()
 }
 
-#[test]
-fn the_elbow_stands_at_the_angle_that_is_given() {
-    let mut draws = Draws::new(31);
-    let mut robots = vec![built_in("iiwa14")];
-    for rows in ELBOWS {
-        robots.extend((0..8).map(|_| drawn(("an elbow", rows), &mut draws)));
-    }
+/// Of the iiwa 14 and so many tables of each kind, at so many postures.
+fn elbows(tables: usize, postures: usize) {
+    let (mut draws, mut of_tables) = (Draws::new(31), Draws::new(37));
+    let rows = ELBOWS.into_iter().flat_map(|rows| core::iter::repeat_n(rows, tables));
+    let robots = rows.map(|rows| drawn(("an elbow", rows), &mut of_tables));
     let [mut all, mut missed] = [0, 0];
-    for robot in robots {
+    for robot in core::iter::once(built_in("iiwa14")).chain(robots) {
         let (robot, form) = given(robot, "elbow_angle");
         assert_eq!((form.family, form.branches()), (Family::ElbowAngle, 8));
         let forward = reference(&robot);
         let arm = AsItIs::<7>::new(&robot, form, Given::default());
-        for _ in 0..100 {
+        for _ in 0..postures {
             let (q, near): ([f64; 7], [f64; 7]) = (draws.array(-3.1, 3.1), draws.array(-3.1, 3.1));
             let (pose, angle) = (forward.pose(&q), elbow_angle(&forward, &q));
             let at = Given { elbow_angle: Some(angle), ..Given::default() };
@@ -111,6 +109,17 @@ fn the_elbow_stands_at_the_angle_that_is_given() {
     }
     println!("{missed} of {all} postures are no branches of their own elbow angle");
     assert!(missed * 1000 < all, "{missed} of {all}");
+}
+
+#[test]
+fn the_elbow_stands_at_the_angle_that_is_given() {
+    elbows(8, 100);
+}
+
+#[test]
+#[ignore = "takes minutes"]
+fn elbows_of_a_thousand_tables_stand_at_the_angle_that_is_given() {
+    elbows(1000, 10);
 }
 
 /// Stretched and folded arms, wrists on axis 1, wrists that are aligned, and poses out of reach.
@@ -268,6 +277,10 @@ fn an_offset_wrist_is_searched() {
     robot.joints[4].d = Value::Number(Number::rounded(0.15));
     let form = robot.nearest_closed_form().expect("a search");
     assert!(form.is_search(), "{form:?}");
+    robot.inverse_kinematics = Some(form);
+    let no = "is a search, not a closed form, and is written as rust alone";
+    let told = [python(&robot), latex(&robot, &[])].map(|text| text.expect_err("a search"));
+    assert!(told.iter().all(|told| told.to_string().ends_with(no)), "{told:?}");
 }
 
 /// The formulas on paper: the same steps as in every other text.
@@ -275,7 +288,7 @@ fn an_offset_wrist_is_searched() {
 fn the_inverse_is_written_as_latex() {
     let mut robot = built_in("kuka_kr240");
     robot.inverse_kinematics = Some(robot.closed_form().expect("a closed form"));
-    let text = latex(&robot, &[]);
+    let text = latex(&robot, &[]).expect("a closed form");
     assert!(text.contains("\\subsection*{inverse kinematics}"), "{text}");
     assert!(text.contains("q_{6}^{(8)} &= "), "{text}");
     assert!(text.contains("\\mathit{distance}^{(8)} &= "), "{text}");

@@ -2,6 +2,7 @@
 //! kinematics, and against a solver that knows nothing of branches.
 
 mod arms;
+mod beyond;
 mod chosen;
 mod short;
 mod steps;
@@ -71,15 +72,12 @@ fn from_branches(arm: &Arm, q: &[f64], near: &[f64]) -> f64 {
 }
 
 /// All arms: those of the collection, and some of each family.
-fn all(each: usize, draws: &mut Draws) -> Vec<Arm> {
-    let mut arms = collection();
-    for family in FAMILIES {
-        arms.extend((0..each).map(|_| random(family, draws)));
-    }
-    for family in OTHERS {
-        arms.extend((0..each).map(|_| random(family, draws)));
-    }
-    arms
+fn all(each: usize, seed: u64) -> impl Iterator<Item = Arm> {
+    let mut draws = Draws::new(seed);
+    let six = FAMILIES.map(|(name, rows)| (name, rows.to_vec()));
+    let families = six.into_iter().chain(OTHERS.map(|(name, rows)| (name, rows.to_vec())));
+    let families = families.flat_map(move |family| core::iter::repeat_n(family, each));
+    collection().into_iter().chain(families.map(move |family| random(family, &mut draws)))
 }
 
 #[test]
@@ -98,7 +96,10 @@ fn the_collection_has_these_closed_forms() {
         "Stanford arm",
         "Staubli TX2-90L",
         "UR10",
+        "UR10e",
+        "UR3e",
         "UR5",
+        "UR5e",
     ];
     assert_eq!(names, closed);
 }
@@ -140,15 +141,16 @@ fn an_arm_without_a_closed_form_is_refused() {
     refused(with([plain[0], "alpha = \"pi/2\"", plain[2]]), "axes 1, 2, 3 meet in a point");
 }
 
-/// Postures of every arm are branches of their poses: so many of each of the collection, and 50 of so many of each kind.
+/// Postures of every arm are branches of their poses: so many of each of the collection, and so many of so many tables of
+/// each kind.
 ///
 /// Errors: of nearly all postures they are below 2e-7, and of the poses 1e-11. Within some 1e-6 of a double root, such as the stretched
 /// elbow of an iiwa, where joints 3 and 5 turn about one line, postures are known to less.
-fn postures_of(count: usize, kinds: usize) {
+fn postures_of(count: usize, (kinds, each): (usize, usize)) {
     let mut draws = Draws::new(1);
     let [mut short, mut off_by_roots, mut postures, mut blurred] = [0; 4];
-    for arm in all(kinds, &mut draws) {
-        for _ in 0..if arm.name.contains('\n') { 50 } else { count } {
+    for arm in all(kinds, 11) {
+        for _ in 0..if arm.name.contains('\n') { each } else { count } {
             let q = arm.posture(&mut draws);
             let near = arm.near(&q, &mut draws);
             let (reached, _) = check(&arm, &arm.pose(&q), &near);
@@ -173,13 +175,19 @@ fn postures_of(count: usize, kinds: usize) {
 
 #[test]
 fn postures_are_branches_of_their_poses() {
-    postures_of(2000, 40);
+    postures_of(2000, (40, 50));
 }
 
 #[test]
 #[ignore = "takes minutes"]
 fn a_hundred_thousand_postures_are_branches_of_their_poses() {
-    postures_of(100_000, 40);
+    postures_of(100_000, (40, 50));
+}
+
+#[test]
+#[ignore = "takes minutes"]
+fn postures_of_a_thousand_tables_of_each_kind_are_branches() {
+    postures_of(1000, (1000, 10));
 }
 
 /// Joints at whole quarter turns, of which the axes are aligned in all ways, and within 1e-12 and 1e-9 of them.
@@ -187,7 +195,8 @@ fn a_hundred_thousand_postures_are_branches_of_their_poses() {
 fn aligned_postures_are_reached_and_free_joints_stay() {
     let mut draws = Draws::new(4);
     let (mut worst, mut all_of_them, mut beside) = (0.0_f64, 0, 0);
-    for arm in all(6, &mut draws) {
+    let (mut singular, mut turned) = (0, 0);
+    for arm in all(6, 14) {
         for k in 0..if arm.name.contains('\n') { 200 } else { 4096 } {
             let n = arm.robot.dof();
             let only = draws.chance(0.5).then(|| (n as f64 * draws.part()) as usize);
@@ -224,17 +233,18 @@ fn aligned_postures_are_reached_and_free_joints_stay() {
             // A double root is known to the square root of rounding.
             if by == 0.0 && only.is_some() {
                 assert!(reached > 0 && error < within(&arm), "{}: {q:?}: {error:e}", arm.name);
-                // Next to a second singularity a joint that is free but for rounding is found, and not left.
+                // Next to a second singularity, such as an elbow within a milliradian of stretched, a joint that is free but for
+                // rounding is found, and not left.
                 let [second, most] = [values[1], values.max()];
                 let off = from_branches(&arm, &q, &q);
-                assert!(
-                    off < 1e-5 || n > 1 && second < 0.03 * most,
-                    "{}: {q:?}: {off:e}",
-                    arm.name
-                );
+                singular += 1;
+                turned += usize::from(off > 1e-5 && n > 1 && second > 0.03 * most);
+                assert!(off < 1e-5 || n > 1 && second < 0.3 * most, "{}: {q:?}: {off:e}", arm.name);
             }
         }
     }
+    println!("{turned} of {singular} free joints turn");
+    assert!(turned * 1000 < singular, "{turned} of {singular}");
     // Of three parallel axes within 1e-12 of two singularities, a few in a hundred thousand: 2e-4 at most.
     println!("{beside} of {all_of_them} are missed by more than 1e-5, at most by {worst:.1e}");
     assert!(worst < 1e-3 && beside * 10_000 < all_of_them, "{worst:e} {beside} of {all_of_them}");
@@ -244,7 +254,7 @@ fn aligned_postures_are_reached_and_free_joints_stay() {
 #[test]
 fn poses_that_are_not_reached_are_missed_by_what_is_told() {
     let mut draws = Draws::new(5);
-    for arm in all(10, &mut draws) {
+    for arm in all(10, 15) {
         for k in 0..60 {
             let (q, near) = (arm.posture(&mut draws), arm.posture(&mut draws));
             let frames = arm.reference.frames(&q);
@@ -264,14 +274,12 @@ fn poses_that_are_not_reached_are_missed_by_what_is_told() {
     }
 }
 
-/// What the reference implementation finds by search, and no other, is what the branches reach, at so many poses of each arm.
-fn solutions_at(poses: usize) {
+/// What the reference implementation finds by search, and no other, is what the branches reach, at so many poses of each arm
+/// of the collection, and of so many tables of each kind.
+fn solutions_at(poses: usize, tables: usize) {
     let mut draws = Draws::new(3);
-    let mut arms = collection();
-    arms.extend(FAMILIES.map(|family| random(family, &mut draws)));
-    arms.extend(OTHERS.map(|family| random(family, &mut draws)));
-    let [mut all, mut missing] = [0, 0];
-    for arm in arms {
+    let [mut all_of_them, mut missing] = [0, 0];
+    for arm in all(tables, 13) {
         for _ in 0..poses {
             let q = arm.posture(&mut draws);
             let pose = arm.pose(&q);
@@ -300,20 +308,26 @@ fn solutions_at(poses: usize) {
                 found.len(),
                 reached.len()
             );
-            all += reached.len();
+            all_of_them += reached.len();
         }
     }
-    println!("{missing} of {all} solutions were not found by search");
-    assert!(missing * 50 < all, "{missing} of {all}");
+    println!("{missing} of {all_of_them} solutions were not found by search");
+    assert!(missing * 50 < all_of_them, "{missing} of {all_of_them}");
 }
 
 #[test]
 fn there_are_no_other_solutions() {
-    solutions_at(2);
+    solutions_at(2, 1);
 }
 
 #[test]
 #[ignore = "takes minutes"]
 fn there_are_no_other_solutions_at_fifty_poses() {
-    solutions_at(50);
+    solutions_at(50, 1);
+}
+
+#[test]
+#[ignore = "takes minutes"]
+fn there_are_no_other_solutions_of_thirty_tables_of_each_kind() {
+    solutions_at(1, 30);
 }

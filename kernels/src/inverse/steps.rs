@@ -91,30 +91,38 @@ pub trait AtRest<S, const N: usize> {
     }
 }
 
-/// `(JᵀJ + λ)⁻¹ Jᵀ e`, by `L D Lᵀ`: the matrix is positive definite by its making. Loops have fixed bounds, so that the compiler
-/// writes them out.
-#[allow(clippy::needless_range_loop, reason = "a row is changed while another one is read")]
+/// `(JᵀJ + λ)⁻¹ Jᵀ e`.
 #[inline(always)]
 pub(super) fn step<S: Scalar, const N: usize>(
     jacobian: &[[S; 6]; N],
     error: &[S; 6],
 ) -> Result<[S; N], Unstable> {
-    let zero = S::lit(0.0);
-    let mut a = [[zero; N]; N];
-    for row in 0..N {
-        for column in 0..N {
+    let mut a = [[S::lit(0.0); N]; N];
+    for (row, one) in jacobian.iter().enumerate() {
+        for (column, other) in jacobian.iter().enumerate() {
             if column <= row {
-                a[row][column] = dot(&jacobian[row], &jacobian[column]);
+                a[row][column] = dot(one, other);
             }
         }
     }
     // 3 (4/3 − 1) − 1 is one unit of rounding, of the numbers that are computed with.
     let unit = S::lit(3.0) * (S::lit(4.0 / 3.0) - S::lit(1.0)) - S::lit(1.0);
     let rounding = unit * unit.sign() * S::lit(8.0);
-    let trace = (0..N).fold(zero, |sum, joint| sum + a[joint][joint]);
+    let trace = (0..N).fold(S::lit(0.0), |sum, joint| sum + a[joint][joint]);
     let damping = dot(error, error) + rounding * trace;
-    let mut by = jacobian.each_ref().map(|column| dot(column, error));
-    let mut inverse = [zero; N];
+    solved(a, damping, jacobian.each_ref().map(|column| dot(column, error)))
+}
+
+/// `(A + λ)⁻¹ b` by `L D Lᵀ` of the lower triangle, which has to be positive definite. Loops have fixed bounds, so that the
+/// compiler writes them out.
+#[allow(clippy::needless_range_loop, reason = "a row is changed while another one is read")]
+#[inline(always)]
+pub(super) fn solved<S: Scalar, const N: usize>(
+    mut a: [[S; N]; N],
+    damping: S,
+    mut by: [S; N],
+) -> Result<[S; N], Unstable> {
+    let mut inverse = [S::lit(0.0); N];
     let mut definite = true;
     for k in 0..N {
         let pivot = a[k][k] + damping;

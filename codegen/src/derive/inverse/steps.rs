@@ -120,7 +120,8 @@ impl<const N: usize> AsItIs<N> {
     }
 
     /// The readings of a branch under a wrench and the weights, or of the rigid arm, from its closed form's joint values, and
-    /// what they miss the pose by ([`AtRest::follow`]): by so many steps at most, until nothing is left.
+    /// what they miss the pose by ([`AtRest::follow`]): by so many steps at most, until nothing is left. Of a pose out of
+    /// reach it is the nearest that the steps come to.
     ///
     /// # Errors
     /// [`Unstable`] where the arm does not bear its load.
@@ -138,7 +139,11 @@ impl<const N: usize> AsItIs<N> {
                 break;
             }
             joints = arm.step(&joints, pose)?;
-            found = arm.follow(joints, pose, (0, self.readings))?;
+            let next = arm.follow(joints, pose, (0, self.readings))?;
+            let off = |[distance, tilt]: [f64; 2]| distance * distance + tilt * tilt;
+            if off(next.1) < off(found.1) {
+                found = next;
+            }
         }
         Ok(found)
     }

@@ -10,7 +10,7 @@ mod function;
 pub(super) mod header;
 mod name;
 mod posture;
-mod set_points;
+pub(super) mod set_points;
 mod solve;
 pub(super) mod source;
 pub(super) mod style;
@@ -23,7 +23,7 @@ use core::fmt;
 use self::function::Function;
 pub(super) use self::function::may_fail;
 use self::style::C;
-use super::hash;
+use super::{NotWritten, has_inverse, hash};
 use crate::derive::Program;
 use crate::ir;
 use crate::robot::Robot;
@@ -89,8 +89,8 @@ impl core::error::Error for SymbolicTable {}
 /// The kernels of a robot as C99. The same table and options always give the same bytes.
 ///
 /// # Errors
-/// [`SymbolicTable`] where a cell of the table is no number.
-pub fn c(robot: &Robot, options: &COptions) -> Result<CFiles, SymbolicTable> {
+/// [`NotWritten`] where a cell of the table is no number, or the inverse kinematics is a search.
+pub fn c(robot: &Robot, options: &COptions) -> Result<CFiles, NotWritten> {
     c_with(robot, &[], options)
 }
 
@@ -99,7 +99,8 @@ pub(crate) fn c_with(
     robot: &Robot,
     own: &[&Program],
     options: &COptions,
-) -> Result<CFiles, SymbolicTable> {
+) -> Result<CFiles, NotWritten> {
+    has_inverse(robot, true)?;
     let module = Module::new(robot, own, options, false)?;
     let table = hash::table(robot);
     let source = source::source(&module, &table);

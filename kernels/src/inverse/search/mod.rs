@@ -11,6 +11,7 @@
 
 mod equations;
 mod moved;
+mod nearest;
 mod roots;
 
 use core::f64::consts::TAU;
@@ -80,6 +81,8 @@ struct SixAxes {
     lines: [[V3; 2]; 6],
     home: Pose<f64>,
     target: Pose<f64>,
+    /// The arm's size, m.
+    size: f64,
 }
 
 impl SixAxes {
@@ -139,8 +142,9 @@ impl SixAxes {
         q
     }
 
-    /// Every solution, with joint `third` from 0 in the middle of the equations; how many roots are most likely angles.
-    fn solve(&self, third: usize, found: &mut Found) -> usize {
+    /// Joint values by each root this near the circle, with joint `third` from 0 in the middle of the equations; how many
+    /// roots are most likely angles.
+    fn begin(&self, third: usize, near: f64, mut with: impl FnMut([f64; 6])) -> usize {
         // e_1 … e_6 = G is e_{k+1} … e_6 (G⁻¹ e_1 G) … (G⁻¹ e_k G) = G.
         let displacement = {
             let axes = Moved::NOT.0.map(|axis| {
@@ -162,16 +166,13 @@ impl SixAxes {
         let mut on_circle = 0;
         for z in roots(&coefficients(&values)) {
             let beside = 0.5 * libm::log(z[0] * z[0] + z[1] * z[1]).abs();
-            if beside.is_nan() || beside >= BESIDE {
+            if beside.is_nan() || beside >= near {
                 continue;
             }
             on_circle += usize::from(beside < ON);
             let at = libm::atan2(z[1], z[0]);
             let angles = twelve(&six, circle(at)).angles();
-            let q = self.joints(&rows, &lines, (at, angles), &displacement, first);
-            if let Some(q) = self.polished(q) {
-                found.add(q);
-            }
+            with(self.joints(&rows, &lines, (at, angles), &displacement, first));
         }
         on_circle
     }
@@ -188,8 +189,9 @@ impl<const N: usize> Axes<N> {
     }
 
     /// Every solution at a pose of the tool, base axes, with the joint that is `given` where `near` has it; joint `third`, of
-    /// the six that are left, is in the middle of the equations. What is no solution misses the pose by an infinite distance;
-    /// of arms with other than six joints, or seven of which one is given, nothing is one.
+    /// the six that are left, is in the middle of the equations. Of a pose out of reach the only one is the posture with the
+    /// least distance² + tilt², m and rad. What is no solution misses the pose by an infinite distance; of arms with other
+    /// than six joints, or seven of which one is given, nothing is one.
     pub fn search<S: Scalar + Into<f64>>(
         &self,
         pose: &Pose<S>,
@@ -229,13 +231,31 @@ impl<const N: usize> Axes<N> {
             lines: lines.map(|[z, p]| [z, scaled(p)]),
             home: Pose { position: scaled(all.home.position), ..all.home },
             target: Pose { position: scaled(target.position), ..target },
+            size,
         };
         let mut found = Found { q: [[0.0; 6]; MOST], count: 0 };
         // Solutions come and go in pairs, and each is a root: where one is missing, other equations may find it.
-        for turn in [0, 3, 4, 1] {
-            let roots = arm.solve((third + turn) % 6, &mut found);
+        const OTHERS: [usize; 4] = [0, 3, 4, 1];
+        for turn in OTHERS {
+            let polish = |q| arm.polished(q).into_iter().for_each(|q| found.add(q));
+            let roots = arm.begin((third + turn) % 6, BESIDE, polish);
             if found.count > 0 && found.count.is_multiple_of(2) && found.count >= roots {
                 break;
+            }
+        }
+        if found.count == 0 {
+            let mut least = arm.nearest(core::array::from_fn(|k| near[kept(k)].into()));
+            for turn in OTHERS {
+                arm.begin((third + turn) % 6, f64::INFINITY, |q| {
+                    let other = arm.nearest(q);
+                    // A number is no less than none.
+                    if other.0 < least.0 {
+                        least = other;
+                    }
+                });
+            }
+            if least.0.is_finite() {
+                found.add(least.1);
             }
         }
         for (branch, q) in found.q[..found.count].iter().enumerate() {

@@ -19,6 +19,9 @@ pub const POSES: usize = 2048;
 /// What a solution may miss its pose by, m and rad.
 const FOUND: f64 = 1e-6;
 
+/// By how much joint values miss a pose, by its number.
+type Miss<'a> = Box<dyn Fn(usize, &[f64]) -> f64 + 'a>;
+
 /// One way to the solutions at poses that it knows by their numbers.
 pub struct Way<'a> {
     pub name: &'static str,
@@ -27,7 +30,7 @@ pub struct Way<'a> {
     /// The same for the clock.
     pub run: Box<dyn Fn(usize) + 'a>,
     /// What joint values miss a pose by, m and rad.
-    pub miss: Box<dyn Fn(usize, &[f64]) -> f64 + 'a>,
+    pub miss: Miss<'a>,
     /// How many poses are timed: some take long.
     pub poses: usize,
 }
@@ -52,7 +55,7 @@ pub fn postures<const N: usize>(singular: bool, elbow: f64) -> Vec<[f64; N]> {
         let mut q: [f64; N] = core::array::from_fn(|_| 3.0 * unit());
         if singular {
             let by = 10_f64.powi(-9 + (k / 3 % 6) as i32);
-            if k % 3 != 0 {
+            if !k.is_multiple_of(3) {
                 q[N - 2] = by * unit();
             }
             if k % 3 != 1 {

@@ -1,4 +1,4 @@
-//! The arm as it is in C, unloaded and at rest under a load: the Rust kernels' steps behind the closed form, operation by
+//! The arm as it is in C and CUDA, unloaded and at rest under a load: the Rust kernels' steps behind the closed form, operation by
 //! operation.
 
 mod text;
@@ -17,6 +17,9 @@ use text::{displaced, follow, missed, stands, step, whole};
 struct Text {
     name: String,
     upper: String,
+    /// What stands before the functions of the file, and before those that others call.
+    local: &'static str,
+    linkage: &'static str,
     real: &'static str,
     suffix: &'static str,
     /// The parameters behind readings, and what is handed on of them.
@@ -42,13 +45,13 @@ struct Text {
 }
 
 impl Text {
-    /// Of an arm of which they are written: not of a GPU's, nor without sines, nor of the rigid arm where that has no steps.
+    /// Of an arm of which they are written: not without sines, nor of the rigid arm where that has no steps.
     fn of(module: &Module, loaded: bool) -> Option<Text> {
         let form = module.ir.robot.inverse_kinematics?;
         if form.is_search() {
             return None;
         }
-        let written = module.options.sines != Sines::Given && !module.language.device;
+        let written = module.options.sines != Sines::Given;
         let (name, real) = (module.name().to_owned(), module.language.real());
         let upper = name.to_uppercase();
         let find = |called: &str| module.ir.functions().find(|f| f.name() == called);
@@ -79,6 +82,8 @@ impl Text {
             branches: form.branches(),
             held: form.given,
             elbow: form.family == Family::ElbowAngle,
+            local: module.language.local(),
+            linkage: module.language.linkage(),
             suffix: module.language.suffix(),
             name,
             upper,
@@ -106,12 +111,12 @@ impl Text {
     }
 
     fn head(&self) -> String {
-        let Text { name, upper, real, given: [parameters, _], .. } = self;
+        let Text { name, upper, linkage, real, given: [parameters, _], .. } = self;
         let function = self.function();
         let wrench = format!("const {real} wrench[6], ");
         let wrench = self.under(&wrench);
         format!(
-            "void {name}_{function}(const {real} q[{upper}_JOINTS]{parameters}, const {real} target[12],\n    \
+            "{linkage}void {name}_{function}(const {real} q[{upper}_JOINTS]{parameters}, const {real} target[12],\n    \
              {wrench}{name}_{function}_t *out)"
         )
     }
@@ -122,8 +127,18 @@ fn texts(module: &Module) -> impl Iterator<Item = Text> {
     [false, true].into_iter().filter_map(|loaded| Text::of(module, loaded))
 }
 
+/// Their names, what they take behind readings and what is given beside those, and how many branches they have.
+pub(in crate::emit) fn functions(
+    module: &Module,
+) -> impl Iterator<Item = (&'static str, Vec<(&'static str, usize)>, usize)> {
+    texts(module).map(|text| {
+        let takes = [("target", 12), ("wrench", 6)];
+        (text.function(), takes[..1 + usize::from(text.loaded)].to_vec(), text.branches)
+    })
+}
+
 /// The declarations of the header.
-pub(super) fn declared(module: &Module, out: &mut Lines) {
+pub(in crate::emit) fn declared(module: &Module, out: &mut Lines) {
     for text in texts(module) {
         let Text { name, real, steps: [count, _], branches, .. } = &text;
         let (head, function) = (text.head(), text.function());
@@ -164,14 +179,14 @@ typedef struct
 }
 
 /// The functions of the source.
-pub(super) fn written(module: &Module, out: &mut Lines) {
+pub(in crate::emit) fn written(module: &Module, out: &mut Lines) {
     let texts: Vec<Text> = texts(module).collect();
     let Some(first) = texts.first() else { return };
-    let Text { name, real, given: [parameters, _], n, .. } = first;
+    let Text { name, local, real, given: [parameters, _], n, .. } = first;
     out.blank();
     out.comment(&["The posture at joint values, not at readings.".to_owned()]);
     out.code(&format!(
-        "static void posture_at(const {real} q[{n}]{parameters}, {name}_posture_t *posture)"
+        "{local} void {name}_posture_at(const {real} q[{n}]{parameters}, {name}_posture_t *posture)"
     ));
     out.braces(|out| module.fields(out, &module.ir.posture, false));
     if texts.iter().any(|text| text.steps[0] > 0) {

@@ -4,8 +4,8 @@ use super::Text;
 
 /// A step.
 pub(super) fn step(text: &Text) -> String {
-    let (real, zero, half, one) = (text.real, text.lit(0.0), text.lit(0.5), text.lit(1.0));
-    let n = text.n;
+    let Text { name, local, real, n, .. } = text;
+    let (zero, half, one) = (text.lit(0.0), text.lit(0.5), text.lit(1.0));
     let (entries, square) = (6 * n, n * n);
     // Eight units of rounding.
     let rounding = match text.suffix {
@@ -14,7 +14,7 @@ pub(super) fn step(text: &Text) -> String {
     };
     format!(
         "
-static {real} dot_6(const {real} a[6], const {real} b[6])
+{local} {real} {name}_dot_6(const {real} a[6], const {real} b[6])
 {{
     {real} sum = {zero};
     unsigned int k;
@@ -27,7 +27,7 @@ static {real} dot_6(const {real} a[6], const {real} b[6])
 }}
 
 /* Adds (J'J + damping)^-1 J'e to joint values, e from where the tool stands to the target; 0 where a number is none. */
-static int step(const {real} stands[12], const {real} jacobian[{entries}], const {real} target[12], {real} joints[{n}])
+{local} int {name}_step(const {real} stands[12], const {real} jacobian[{entries}], const {real} target[12], {real} joints[{n}])
 {{
     {real} error[6] = {{{zero}}};
     {real} a[{square}];
@@ -54,12 +54,12 @@ static int step(const {real} stands[12], const {real} jacobian[{entries}], const
     {{
         for (column = 0U; column <= row; column++)
         {{
-            a[(row * {n}U) + column] = dot_6(&jacobian[6U * row], &jacobian[6U * column]);
+            a[(row * {n}U) + column] = {name}_dot_6(&jacobian[6U * row], &jacobian[6U * column]);
         }}
         trace = trace + a[(row * {n}U) + row];
-        by[row] = dot_6(&jacobian[6U * row], error);
+        by[row] = {name}_dot_6(&jacobian[6U * row], error);
     }}
-    damping = dot_6(error, error) + {rounding} * trace;
+    damping = {name}_dot_6(error, error) + {rounding} * trace;
     for (k = 0U; k < {n}U; k++)
     {{
         const {real} pivot = a[(k * {n}U) + k] + damping;
@@ -99,12 +99,13 @@ static int step(const {real} stands[12], const {real} jacobian[{entries}], const
 
 /// What a pose is missed by.
 pub(super) fn missed(text: &Text) -> String {
-    let (real, zero, half) = (text.real, text.lit(0.0), text.lit(0.5));
+    let Text { name, local, real, .. } = text;
+    let (zero, half) = (text.lit(0.0), text.lit(0.5));
     let root = format!("sqrt{}", text.suffix);
     format!(
         "
 /* Distance of two poses, and twice the sine of half the angle between their axes. */
-static void missed(const {real} a[12], const {real} b[12], {real} *distance, {real} *tilt)
+{local} void {name}_missed(const {real} a[12], const {real} b[12], {real} *distance, {real} *tilt)
 {{
     {real} turned = {zero};
     {real} apart = {zero};
@@ -137,7 +138,7 @@ static void missed(const {real} a[12], const {real} b[12], {real} *distance, {re
 
 /// A pose displaced by what links, bearings and the base give.
 pub(super) fn displaced(text: &Text) -> String {
-    let real = text.real;
+    let Text { name, local, real, .. } = text;
     let series = |terms: [f64; 4]| {
         let [last, rest @ ..] = terms.map(|term| text.lit(term));
         rest.iter().fold(last, |sum, term| format!("({term} - t * {sum})"))
@@ -147,7 +148,7 @@ pub(super) fn displaced(text: &Text) -> String {
     format!(
         "
 /* Moves a pose by a small translation and a rotation vector. */
-static void displace({real} pose[12], const {real} by[6])
+{local} void {name}_displace({real} pose[12], const {real} by[6])
 {{
     const {real} u = by[3];
     const {real} v = by[4];
@@ -176,19 +177,19 @@ static void displace({real} pose[12], const {real} by[6])
 
 /// Where the loaded tool stands.
 pub(super) fn stands(text: &Text) -> String {
-    let Text { name, real, .. } = text;
+    let Text { name, local, real, .. } = text;
     let load = if text.loads { ", wrench" } else { "" };
     let gives = match text.links {
         true => format!(
             "\n    {name}_gives_t gives;\n\n    {name}_given_gives(posture{load}, &gives);\n    \
-             {name}_given_pose(posture, pose);\n    displace(pose, gives.tool);"
+             {name}_given_pose(posture, pose);\n    {name}_displace(pose, gives.tool);"
         ),
         false => format!("\n    (void)wrench;\n    {name}_given_pose(posture, pose);"),
     };
     format!(
         "
 /* Where the loaded tool stands in a posture at rest. */
-static void stands_at(const {name}_posture_t *posture, const {real} wrench[6], {real} pose[12])
+{local} void {name}_stands_at(const {name}_posture_t *posture, const {real} wrench[6], {real} pose[12])
 {{{gives}
 }}
 "
@@ -197,13 +198,13 @@ static void stands_at(const {name}_posture_t *posture, const {real} wrench[6], {
 
 /// One branch.
 pub(super) fn follow(text: &Text) -> String {
-    let Text { name, upper, real, given: [parameters, given], moves, steps, n, .. } = text;
+    let Text { name, upper, local, real, given: [parameters, given], moves, steps, n, .. } = text;
     let entries = 6 * n;
     let [count, readings] = steps;
     let (branch, standing) = (
         text.function(),
         match text.loaded {
-            true => "stands_at(&posture, wrench, pose);".to_owned(),
+            true => format!("{name}_stands_at(&posture, wrench, pose);"),
             false => format!("{name}_given_pose(&posture, pose);"),
         },
     );
@@ -225,10 +226,10 @@ pub(super) fn follow(text: &Text) -> String {
     {{
         {real} jacobian[{entries}];
 
-        posture_at(joints{given}, &posture);
+        {name}_posture_at(joints{given}, &posture);
         {standing}
         {name}_given_jacobian(&posture, jacobian);{hold}
-        if (step(pose, jacobian, target, joints) == 0)
+        if ({name}_step(pose, jacobian, target, joints) == 0)
         {{
             definite = 0;
         }}
@@ -281,7 +282,7 @@ pub(super) fn follow(text: &Text) -> String {
     format!(
         "
 /* The readings of one branch from its joint values, and what they miss the target by; 0 where the arm is not at rest. */
-static int {branch}_of(const {real} begin[{n}]{parameters}, const {real} target[12],{wrench}
+{local} int {name}_{branch}_of(const {real} begin[{n}]{parameters}, const {real} target[12],{wrench}
     {real} q[{n}], {real} *distance, {real} *tilt)
 {{
 {state}    {name}_posture_t posture = {{0}};
@@ -301,9 +302,9 @@ static int {branch}_of(const {real} begin[{n}]{parameters}, const {real} target[
         q[k] = meant[k];
     }}
 {read}    {again}
-{rests}    posture_at(at{given}, &posture);
+{rests}    {name}_posture_at(at{given}, &posture);
     {standing}
-    missed(pose, target, distance, tilt);
+    {name}_missed(pose, target, distance, tilt);
 {end}}}
 "
     )
@@ -325,7 +326,7 @@ fn gives(text: &Text) -> String {
         None => format!("    {deflection}"),
     };
     format!(
-        "    posture_at(joints{given}, &posture);\n{bears}    {name}_given_gives(&posture{load}, &give);\n"
+        "    {name}_posture_at(joints{given}, &posture);\n{bears}    {name}_given_gives(&posture{load}, &give);\n"
     )
 }
 
@@ -358,7 +359,7 @@ pub(super) fn whole(text: &Text) -> String {
     {{
         const {real} *const joints = &begin.q[{n}U * branch];
 
-        if ({branch}_of(joints{given}, target,{wrench} &out->q[{n}U * branch], &out->distance[branch],
+        if ({name}_{branch}_of(joints{given}, target,{wrench} &out->q[{n}U * branch], &out->distance[branch],
             &out->tilt[branch]) == 0)
         {{
             (void)memcpy(&out->q[{n}U * branch], joints, {n}U * sizeof joints[0]);
