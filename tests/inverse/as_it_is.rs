@@ -198,7 +198,7 @@ fn check<const N: usize>(poses: usize) {
         assert!(worst < 1e-12, "{name}: {worst:e}");
         assert!(by_three as f64 > 0.9 * all as f64, "{name}: {by_three} of {all}");
         assert!(reached as f64 > 0.95 * all as f64, "{name}: {reached} of {all}");
-        assert!(found as f64 > 0.95 * poses as f64, "{name}: {found} of {poses}");
+        assert!(found as f64 > 0.97 * poses as f64, "{name}: {found} of {poses}");
     }
 }
 
