@@ -471,6 +471,22 @@ fn the_diagnosis_goes_on_without_the_mistake() {
     assert!(found.gap.after.position_rms < 2e-4, "{:?}", found.gap);
 }
 
+/// Three quarters of the rows fit without it: what is left of nearly all of them tells.
+#[test]
+fn a_reading_that_sticks_for_a_tenth_of_the_rows_is_named() {
+    let mut case = Case::measured(5, "", 120, None);
+    let (from, until) = (30, 30 + case.data.rows.len() / 9);
+    let stuck = case.data.rows[from].q[2];
+    case.data.rows[from..until].iter_mut().for_each(|row| row.q[2] = stuck);
+    let found = case.found();
+    let planted = [("stuck_reading", "joint 3".to_owned())];
+    assert!(
+        found.as_ref().is_some_and(|found| is_that(&found.mistakes, &planted)),
+        "{}",
+        names(&found)
+    );
+}
+
 #[test]
 #[ignore = "takes minutes: cargo test -p stiffarm --release --test withheld -- --ignored --nocapture mistakes"]
 fn full() {

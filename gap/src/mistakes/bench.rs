@@ -9,12 +9,12 @@ use core::f64::consts::{PI, TAU};
 use nalgebra::{Matrix3, Vector3, Vector6};
 use stiffarm_kernels::generic::Arm;
 
-use super::fit::{KEPT, Left};
+use super::fit::{Left, best};
 use super::kind::{Entry, Mistake};
 use super::rows::Rows;
 use super::search::{ORDINARY, Search};
 use crate::diagnose::{Options, Problem, aligned, prior_penalty, refit};
-use crate::gap::{ascending, rms};
+use crate::gap::rms;
 use crate::measurement::{Kind, Measurements};
 
 /// Halvings of the step from one zero that is tried to the next, 15°: to a tenth of a milliradian.
@@ -71,11 +71,11 @@ impl Search<'_> {
         let weights = Vector6::new(length, length, length, angle, angle, angle);
         let fit = refit(&problem, aligned(&problem).ok()?, None, &weights).ok()?;
         let size = |gap: &Vector6<f64>| gap.component_mul(&weights).norm() / length;
-        let mut sizes = ascending(fit.predicted.gaps.iter().map(size));
+        let sizes: Vec<f64> = fit.predicted.gaps.iter().map(size).collect();
         let position = rms(&sizes);
-        sizes.truncate(((KEPT * sizes.len() as f64).ceil() as usize).max(1));
+        let left = best(self.kept, sizes.into_iter());
         Some(Left {
-            size: Some(rms(&sizes)).filter(|size| size.is_finite())?.max(1e-9),
+            size: Some(left).filter(|size| size.is_finite())?,
             prior_penalty: prior_penalty(&problem, &fit.model),
             position,
             rotation: 0.0,

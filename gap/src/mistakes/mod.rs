@@ -25,12 +25,17 @@ use crate::gap::{ascending, middle, percentile};
 use crate::measurement::Measurements;
 use crate::report::campaign::{Mistaken, Wrong};
 use crate::simulate::is_stream;
+use fit::KEPT;
 use kind::{Entry, Mistake};
 use rows::Rows;
-use search::{Found, Search, Tried};
+use search::{EXPLAINED, Found, Search, Tried};
 
 /// Fewer numbers do not tell frames and six zeros from a mistake: a dozen positions, or six poses.
 const LEAST_NUMBERS: usize = 36;
+
+/// Part of the rows by which mistakes are judged that are seen in few of them: a coupling in sweeps of single joints, a
+/// reading that sticks for a while. Of a tracker's rows fewer are just wrong.
+const ALMOST_ALL: f64 = 0.97;
 
 /// Part of the reach that a rad of the tool's rotation counts: a tool's own length.
 const LEVER: f64 = 0.2;
@@ -78,7 +83,8 @@ pub(crate) fn find(
         others.filter_map(|(robot, arm)| Some((robot, arm.ok().filter(&is_other)?))).collect();
     let family: Vec<Arm> = others.iter().map(|(_, arm)| arm.clone()).collect();
     let extent = if data.kind.is_pose() { extent(data) } else { reach };
-    let search = Search {
+    let mut search = Search {
+        kept: KEPT,
         arm,
         rows: Rows::of(arm, data, &options.known),
         all: Mistake::all(arm, data, family.len()),
@@ -88,9 +94,22 @@ pub(crate) fn find(
         base_is_known: !options.nuisances.contains(&Nuisance::BaseFrame),
         bench: bench::numbers(data).map(|_| options),
     };
-    let nothing = search.tried(Vec::new())?;
+    let is_stream = data.sessions().any(is_stream);
+    let mut nothing = search.tried(Vec::new())?;
     let names: Vec<&str> = others.iter().map(|(robot, _)| robot.name.as_str()).collect();
-    match search.run(&nothing, data.sessions().any(is_stream)) {
+    let mut found = search.run(&nothing, is_stream);
+    if matches!(found, Found::Nothing) {
+        search.kept = ALMOST_ALL;
+        nothing = search.tried(Vec::new())?;
+        if nothing.left.size > EXPLAINED * search.reach {
+            found = search.run(&nothing, is_stream);
+        }
+        // Rows that are just wrong are left out by the diagnosis.
+        if matches!(found, Found::Unexplained) {
+            found = Found::Nothing;
+        }
+    }
+    match found {
         Found::Nothing => None,
         Found::Unexplained => Some((told(&nothing, None, &[], &names, data.rows.len()), None)),
         Found::Mistakes(best, same) => {

@@ -15,7 +15,7 @@ use crate::doubts::reach;
 pub(super) const ORDINARY: f64 = 1e-3;
 
 /// Of the reach: what a mistake that is named may leave: fifteen times as much as the worst of those arms.
-const EXPLAINED: f64 = 0.02;
+pub(super) const EXPLAINED: f64 = 0.02;
 
 /// Of the reach: a gap that no mistake makes smaller is no arm's. Rows of other poses leave 0.38 at least, arms
 /// 0.0013 at most, 25 and 200 of `tests/withheld/mistakes.rs`.
@@ -80,6 +80,8 @@ pub(super) struct Search<'a> {
     pub reach: f64,
     /// Whether the base is where the file says, so that its turn speaks against a mistake.
     pub base_is_known: bool,
+    /// Part of the rows by which what is left is judged.
+    pub kept: f64,
     /// How a bench, or single coordinates, are fitted; `None` of poses.
     pub bench: Option<&'a Options>,
 }
@@ -136,7 +138,7 @@ impl Search<'_> {
         mistakes.sort_by_key(|mistake| mistake.order());
         let arm = self.arm_without(&mistakes);
         let fit = Fit::new(&self.rows, rows, &mistakes, &arm, self.lever, loaded)?;
-        Some((mistakes, fit))
+        Some((mistakes, fit.kept(self.kept)))
     }
 
     /// With all unknowns.

@@ -39,7 +39,7 @@ const SOFTNESS: f64 = 3e-5;
 /// Where Cauchy's weights are a half, in squares of the scale: nine of ten rows of a normal law weigh more.
 const FLAT: f64 = 9.0;
 
-/// Part of the rows, those that fit best, by which what is left is judged.
+/// Part of the rows, those that fit best, whose spread is the scale of the fit.
 pub(super) const KEPT: f64 = 0.75;
 
 /// Turns of the closed forms, and steps of the least squares.
@@ -92,6 +92,8 @@ pub(super) struct Fit {
     open: Vec<Open>,
     /// By which the prior scales of zeros and springs are multiplied.
     tight: f64,
+    /// Part of the rows by which what is left is judged.
+    kept: f64,
     /// Compliances at which `springs` is zero, and the prior scales of their logarithms.
     soft: Vec<(f64, f64)>,
     first_base: UnitQuaternion<f64>,
@@ -195,6 +197,7 @@ impl Fit {
             soft: soft.collect(),
             open,
             tight: 1.0,
+            kept: KEPT,
             first_base,
             rows,
             arm,
@@ -206,6 +209,11 @@ impl Fit {
         self.align(turns);
         let gaps = self.gaps();
         self.left(&gaps)
+    }
+
+    /// Judged by this part of the rows, those that fit best.
+    pub(super) fn kept(self, kept: f64) -> Fit {
+        Fit { kept, ..self }
     }
 
     /// With zeros and springs as the file has them, but for this part of what is usual.
@@ -300,9 +308,7 @@ impl Fit {
 
     /// Root mean square of the rows that fit best.
     fn scale(&self, gaps: &[Gap]) -> f64 {
-        let mut sizes = ascending(gaps.iter().map(|gap| self.size(gap)));
-        sizes.truncate(((KEPT * sizes.len() as f64).ceil() as usize).max(1));
-        rms(&sizes).max(1e-9)
+        best(KEPT, gaps.iter().map(|gap| self.size(gap)))
     }
 
     /// Of Cauchy's form, with the priors.
@@ -327,7 +333,7 @@ impl Fit {
         let part = if self.has_rotation { 6.0 } else { 3.0 };
         let turned =
             self.at.bases.first().map_or(0.0, |base| base.rotation.angle_to(&self.first_base));
-        let size = self.scale(gaps);
+        let size = best(self.kept, gaps.iter().map(|gap| self.size(gap)));
         Left {
             size: if size.is_finite() { size } else { f64::INFINITY },
             prior_penalty: self.prior_penalty(),
@@ -338,4 +344,11 @@ impl Fit {
             turned,
         }
     }
+}
+
+/// Root mean square of a part of the sizes, the smallest.
+pub(super) fn best(part: f64, sizes: impl Iterator<Item = f64>) -> f64 {
+    let mut sizes = ascending(sizes);
+    sizes.truncate(((part * sizes.len() as f64).ceil() as usize).max(1));
+    rms(&sizes).max(1e-9)
 }
