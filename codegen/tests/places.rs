@@ -50,13 +50,15 @@ fn names(text: &str, word: &str) -> bool {
 fn an_output_stands_in_three_places() {
     let sources = sources();
     // The flexible chain gives a pose, too; a URDF's table is compared with the URDF by its pose; the inverse of an arm takes
-    // three outputs of it.
+    // three outputs of it, and in NumPy two.
     let apart = [
         ("codegen/src/derive/flexible.rs", Output::Pose),
         ("codegen/src/frontends/urdf/invoked.rs", Output::Pose),
         ("codegen/src/robot/nearest.rs", Output::Pose),
         ("codegen/src/robot/nearest.rs", Output::Jacobian),
         ("codegen/src/robot/nearest.rs", Output::DeflectionWithGravity),
+        ("codegen/src/emit/numpy/as_it_is.rs", Output::Pose),
+        ("codegen/src/emit/numpy/as_it_is.rs", Output::Jacobian),
     ];
     for output in Output::EACH {
         let identifier = format!("Output::{output:?}");
