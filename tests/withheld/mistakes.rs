@@ -508,19 +508,6 @@ const INSTRUMENTS: [Kind; 3] = [
     Kind::Distance,
 ];
 
-/// Kinds that every instrument sees.
-const SEEN_BY_ALL: [&str; 9] = [
-    "late_readings",
-    "joint_sign",
-    "joint_zero",
-    "reading_coupling",
-    "swapped_readings",
-    "reading_unit",
-    "convention",
-    "table_unit",
-    "any_zero",
-];
-
 /// What instruments without a tracker tell, and a tracker at six to eleven poses.
 fn few(seeds: core::ops::Range<u64>) -> [usize; 4] {
     let mut all = [0; 4];
@@ -532,17 +519,19 @@ fn few(seeds: core::ops::Range<u64>) -> [usize; 4] {
         all = [all[0] + named, all[1] + of, all[2] + alarms, all[3] + clean_arms as usize];
     };
     let arms = 4 * (seeds.end - seeds.start);
+    // Signs to conventions, of the table its units: every instrument sees them.
+    let seen = [&["late_readings"], &KINDS[..6], &["table_unit", "any_zero"]].concat();
     for kind in INSTRUMENTS {
         // A socket holds its point at every posture: which one comes late is not told.
         let kinds = match kind {
-            Kind::Bench { lengths: 3, .. } => &SEEN_BY_ALL[1..],
-            _ => &SEEN_BY_ALL,
+            Kind::Bench { lengths: 3, .. } => &seen[1..],
+            _ => &seen[..],
         };
         let clean = |seed, mistake: &str| Case::measured(seed, mistake, 80, Some(kind));
         add(&format!("{kind:?}"), kinds, &clean, arms);
     }
     let few = |seed, mistake: &str| Case::measured(seed, mistake, 6 + seed as usize % 6, None);
-    add("few poses", &SEEN_BY_ALL, &few, arms);
+    add("few poses", &seen, &few, arms);
     all
 }
 

@@ -151,6 +151,12 @@ impl<'a> Scene<'a> {
         change
     }
 
+    /// The column of all joints, of what each is at the fine samples.
+    pub fn of_all(&self, fine: &[Vec<f64>]) -> Column {
+        let rows = fine.iter().map(|fine| self.signals.filtered(fine));
+        Column { parts: rows.enumerate().collect() }
+    }
+
     /// The column of one joint, of what a fine sample is.
     pub fn column(&self, joint: usize, of: impl Fn(usize) -> f64) -> Column {
         let fine: Vec<f64> = (0..self.signals.t.len()).map(of).collect();

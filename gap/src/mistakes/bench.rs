@@ -9,7 +9,7 @@ use core::f64::consts::{PI, TAU};
 use nalgebra::{Matrix3, Vector3, Vector6};
 use stiffarm_kernels::generic::Arm;
 
-use super::fit::{Left, best};
+use super::fit::{Left, NEARLY_ALL, best};
 use super::kind::{Entry, Mistake};
 use super::rows::Rows;
 use super::search::{ORDINARY, Search};
@@ -73,9 +73,10 @@ impl Search<'_> {
         let size = |gap: &Vector6<f64>| gap.component_mul(&weights).norm() / length;
         let sizes: Vec<f64> = fit.predicted.gaps.iter().map(size).collect();
         let position = rms(&sizes);
-        let left = best(self.kept, sizes.into_iter());
-        Some(Left {
-            size: Some(left).filter(|size| size.is_finite())?,
+        let size = best(self.kept, sizes.iter().copied());
+        size.is_finite().then_some(Left {
+            size,
+            of_nearly_all: best(NEARLY_ALL, sizes.into_iter()),
             prior_penalty: prior_penalty(&problem, &fit.model),
             position,
             rotation: 0.0,

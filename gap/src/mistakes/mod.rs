@@ -25,17 +25,13 @@ use crate::gap::{ascending, middle, percentile};
 use crate::measurement::Measurements;
 use crate::report::campaign::{Mistaken, Wrong};
 use crate::simulate::is_stream;
-use fit::KEPT;
+use fit::{KEPT, NEARLY_ALL};
 use kind::{Entry, Mistake};
 use rows::Rows;
 use search::{EXPLAINED, Found, Search, Tried};
 
 /// Fewer numbers do not tell frames and six zeros from a mistake: a dozen positions, or six poses.
 const LEAST_NUMBERS: usize = 36;
-
-/// Part of the rows by which mistakes are judged that are seen in few of them: a coupling in sweeps of single joints, a
-/// reading that sticks for a while. Of a tracker's rows fewer are just wrong.
-const ALMOST_ALL: f64 = 0.97;
 
 /// Part of the reach that a rad of the tool's rotation counts: a tool's own length.
 const LEVER: f64 = 0.2;
@@ -98,12 +94,10 @@ pub(crate) fn find(
     let mut nothing = search.tried(Vec::new())?;
     let names: Vec<&str> = others.iter().map(|(robot, _)| robot.name.as_str()).collect();
     let mut found = search.run(&nothing, is_stream);
-    if matches!(found, Found::Nothing) {
-        search.kept = ALMOST_ALL;
-        nothing = search.tried(Vec::new())?;
-        if nothing.left.size > EXPLAINED * search.reach {
-            found = search.run(&nothing, is_stream);
-        }
+    if matches!(found, Found::Nothing) && nothing.left.of_nearly_all > EXPLAINED * search.reach {
+        search.kept = NEARLY_ALL;
+        nothing.left.size = nothing.left.of_nearly_all;
+        found = search.run(&nothing, is_stream);
         // Rows that are just wrong are left out by the diagnosis.
         if matches!(found, Found::Unexplained) {
             found = Found::Nothing;

@@ -39,6 +39,10 @@ const SOFTNESS: f64 = 3e-5;
 /// Where Cauchy's weights are a half, in squares of the scale: nine of ten rows of a normal law weigh more.
 const FLAT: f64 = 9.0;
 
+/// Part of the rows by which mistakes are judged that are seen in few of them: a coupling in sweeps of single joints, a
+/// reading that sticks for a while. Of a tracker's rows fewer are just wrong.
+pub(super) const NEARLY_ALL: f64 = 0.97;
+
 /// Part of the rows, those that fit best, whose spread is the scale of the fit.
 pub(super) const KEPT: f64 = 0.75;
 
@@ -54,6 +58,8 @@ const SETTLED: f64 = 0.999;
 pub(super) struct Left {
     /// Root mean square of those rows that fit best, m; a rotation counts by a lever.
     pub size: f64,
+    /// The same of [`NEARLY_ALL`] rows.
+    pub of_nearly_all: f64,
     /// How far zeros and springs went from what the file says, in squares of their prior scales.
     pub prior_penalty: f64,
     /// Root mean square of all rows, positions (m) and rotations (rad).
@@ -333,9 +339,10 @@ impl Fit {
         let part = if self.has_rotation { 6.0 } else { 3.0 };
         let turned =
             self.at.bases.first().map_or(0.0, |base| base.rotation.angle_to(&self.first_base));
-        let size = best(self.kept, gaps.iter().map(|gap| self.size(gap)));
+        let sizes = || gaps.iter().map(|gap| self.size(gap));
         Left {
-            size: if size.is_finite() { size } else { f64::INFINITY },
+            size: best(self.kept, sizes()),
+            of_nearly_all: best(NEARLY_ALL, sizes()),
             prior_penalty: self.prior_penalty(),
             position: of(|gap| gap.0.norm()),
             rotation: of(|gap| gap.1.norm()),
@@ -346,9 +353,10 @@ impl Fit {
     }
 }
 
-/// Root mean square of a part of the sizes, the smallest.
+/// Root mean square of a part of the sizes, the smallest; infinite where that is no number.
 pub(super) fn best(part: f64, sizes: impl Iterator<Item = f64>) -> f64 {
     let mut sizes = ascending(sizes);
     sizes.truncate(((part * sizes.len() as f64).ceil() as usize).max(1));
-    rms(&sizes).max(1e-9)
+    let size = rms(&sizes);
+    if size.is_finite() { size.max(1e-9) } else { f64::INFINITY }
 }

@@ -98,9 +98,7 @@ impl InMotion for JointElasticity {
         let bent = [rate(&loads, signals.period), loads, load];
         let most = bent[2].iter().fold(0.0_f64, |most, x| most.max(x.abs()));
         let by = if most > 0.0 { SAGS / most } else { 0.0 };
-        let parts = scene.when_moved(joint, by, &bent).into_iter().enumerate();
-        let parts = parts.map(|(on, change)| (on, signals.filtered(&change)));
-        vec![Column { parts: parts.collect() }]
+        vec![scene.of_all(&scene.when_moved(joint, by, &bent))]
     }
 
     fn is_of_loads(&self) -> bool {

@@ -65,11 +65,6 @@ impl JointOffsetInMotion {
         asks.iter_mut().flatten().for_each(|x| *x *= offset);
         asks
     }
-
-    fn column(scene: &LogScene<'_>, asks: Vec<Vec<f64>>) -> Column {
-        let parts = asks.into_iter().enumerate();
-        Column { parts: parts.map(|(on, asks)| (on, scene.signals.filtered(&asks))).collect() }
-    }
 }
 
 impl Law for JointOffsetInMotion {
@@ -86,11 +81,11 @@ impl InMotion for JointOffsetInMotion {
             more.iter_mut().flatten().zip(is.iter().flatten()).for_each(|(more, is)| *more -= is);
         }
         more.iter_mut().flatten().for_each(|x| *x /= MORE);
-        vec![Self::column(scene, more)]
+        vec![scene.of_all(&more)]
     }
 
     fn value(&self, scene: &LogScene<'_>, spot: Spot, values: &[f64]) -> Column {
-        Self::column(scene, Self::asks(scene, spot.row(), values[0]))
+        scene.of_all(&Self::asks(scene, spot.row(), values[0]))
     }
 
     fn is_of_loads(&self) -> bool {
