@@ -4,16 +4,17 @@
 //! Each threshold is where no arm can be, so that a doubt is worth its sentence: it is told, and
 //! changes nothing.
 
+pub(crate) mod frames;
 mod orientation;
 
 use core::f64::consts::{PI, TAU};
 
-use nalgebra::{Isometry3, Point3, Vector3, Vector6};
+use nalgebra::{Vector3, Vector6};
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::{Arm, Joint};
 
-use crate::diagnose::{Nuisance, rigid};
-use crate::gap::{middle, rms, row_gap};
+use crate::diagnose::Nuisance;
+use crate::gap::middle;
 use crate::measurement::{Kind, MOST_RADIANS, Measurements, Row};
 use crate::simulate::{Reading, simulate};
 
@@ -24,15 +25,6 @@ const MOST_REACHES: f64 = 100.0;
 /// Springs are linear while the arm gives by little: a tenth of its reach is a tenth of a radian at
 /// its first joint.
 const MOST_GIVEN: f64 = 0.1;
-
-/// Of the reach: lengths are held to a thousandth and zeros marked to a few, also on a bad arm.
-const LARGE_GAP: f64 = 0.02;
-
-/// Part of the gap's square that a motion of a frame explains where it is all that is amiss.
-const NEARLY_ALL: f64 = 0.99;
-
-/// Poses below which a motion of both frames, nine numbers, explains too much by itself.
-const FEWEST_POSES: usize = 6;
 
 /// Rows by which a motion of a frame is judged, spread over the file.
 const ENOUGH_ROWS: usize = 500;
@@ -53,7 +45,9 @@ pub fn doubts(arm: &Arm, data: &Measurements, along: &[Nuisance]) -> Vec<String>
         }
         // In other units no frame fits.
         if doubts.is_empty() {
-            doubts.extend(frames(arm, data, along, reach));
+            doubts.extend(
+                frames::displaced(arm, data, &[], along).map(|moved| moved.doubt(data, reach)),
+            );
         }
     }
     doubts
@@ -219,89 +213,19 @@ fn loads(arm: &Arm, data: &Measurements, reach: f64) -> Option<String> {
     ))
 }
 
-/// Rows spread over the file, and what is simulated of them: by the user where all of so many components are.
-fn spread<'d>(arm: &Arm, data: &'d Measurements, components: usize) -> Vec<(Reading, &'d Row)> {
-    let every = data.rows.len().div_ceil(ENOUGH_ROWS);
-    let given = data.sim_given[..components].iter().all(|given| *given);
-    let simulated = |row: &Row| match &row.sim {
-        Some(sim) if given => Some(Reading::from_vector(sim)),
-        _ => simulate(arm, row, data.kind).ok().map(|sim| sim.reading()),
-    };
-    let rows = data.rows.iter().step_by(every);
-    rows.filter_map(|row| simulated(row).map(|s| (s, row))).collect()
+/// Rows spread over the file, with their numbers.
+fn spread(data: &Measurements) -> impl Iterator<Item = (usize, &Row)> {
+    data.rows.iter().enumerate().step_by(data.rows.len().div_ceil(ENOUGH_ROWS).max(1))
 }
 
-/// A gap that is large beside the arm and a motion of its frames.
-fn frames(arm: &Arm, data: &Measurements, along: &[Nuisance], reach: f64) -> Option<String> {
-    // Where a marker is unknown its place is fitted along in any case.
-    let unknown = data.rows.iter().any(|row| row.offset.is_none());
-    if !data.kind.is_pose() || data.poses < FEWEST_POSES || unknown {
-        return None;
-    }
-    let rows = spread(arm, data, 3);
-    let mut ends: Vec<usize> =
-        rows.chunk_by(|a, b| a.1.session == b.1.session).map(<[_]>::len).collect();
-    (1..ends.len()).for_each(|k| ends[k] += ends[k - 1]);
-    let session = |row: usize| ends.partition_point(|end| *end <= row);
-    let is = |row: &Row| row.measured.fixed_rows::<3>(0).into_owned();
-    let size = |gaps: Vec<Vector3<f64>>| rms(&gaps.iter().map(Vector3::norm).collect::<Vec<_>>());
-    let gap = |(sim, row): &(Reading, &Row)| row_gap(data, row, sim).fixed_rows::<3>(0).into();
-    let before = size(rows.iter().map(gap).collect());
-    if rows.len() < FEWEST_POSES || before <= LARGE_GAP * reach {
-        return None;
-    }
-    let to: Vec<_> = rows.iter().map(|(_, row)| is(row)).collect();
-    let left = |free: &[Nuisance]| {
-        let (mut bases, mut tool) = (vec![Isometry3::identity(); ends.len()], Vector3::zeros());
-        // Each is exact where the other is; together they approach the best of both.
-        for _ in 0..20 {
-            if free.contains(&Nuisance::BaseFrame) {
-                let from: Vec<_> =
-                    rows.iter().map(|(sim, _)| sim.position + sim.rotation * tool).collect();
-                let mut first = 0;
-                for (base, &end) in bases.iter_mut().zip(&ends) {
-                    *base = rigid(&from[first..end], &to[first..end]);
-                    first = end;
-                }
-            }
-            if free.contains(&Nuisance::ToolFrame) {
-                let offset = |(k, ((sim, _), to)): (usize, (&(Reading, &Row), &Vector3<f64>))| {
-                    let at = bases[session(k)].inverse() * Point3::from(*to);
-                    sim.rotation.inverse() * (at.coords - sim.position)
-                };
-                let offsets = rows.iter().zip(&to).enumerate().map(offset);
-                tool = offsets.sum::<Vector3<f64>>() / rows.len() as f64;
-            }
+/// What is simulated of a row: by the user where all of so many components are.
+fn simulated(arm: &Arm, data: &Measurements, components: usize, row: &Row) -> Option<Reading> {
+    match &row.sim {
+        Some(sim) if !data.sim_given[..components].contains(&false) => {
+            Some(Reading::from_vector(sim))
         }
-        let left = |(k, ((sim, _), to)): (usize, (&(Reading, &Row), &Vector3<f64>))| {
-            let at = bases[session(k)] * Point3::from(sim.position + sim.rotation * tool);
-            to - at.coords
-        };
-        size(rows.iter().zip(&to).enumerate().map(left).collect())
-    };
-    let explains = |left: f64| 1.0 - (left / before).powi(2);
-    let [base, tool] = [Nuisance::BaseFrame, Nuisance::ToolFrame];
-    if !along.is_empty() && explains(left(along)) > NEARLY_ALL {
-        return None;
+        _ => simulate(arm, row, data.kind).ok().map(|sim| sim.reading()),
     }
-    let tried = [vec![base], vec![tool], vec![base, tool]].map(|free| (left(&free), free));
-    let nearly: Vec<_> =
-        tried.into_iter().filter(|(left, _)| explains(*left) > NEARLY_ALL).collect();
-    // One frame is enough where what it leaves is not large in turn.
-    let enough = nearly.iter().find(|(left, _)| *left <= LARGE_GAP * reach);
-    let (left, free) = enough.or(nearly.first())?;
-    let part = explains(*left);
-    let names: Vec<&str> = free.iter().map(|frame| frame.identifier()).collect();
-    Some(format!(
-        "{}: the gap is {} m, and the arm reaches {} m; a rigid motion of {} explains {:.1} % of it: is \
-         the frame unknown? --nuisance {}",
-        data.file,
-        shown(before),
-        shown(reach),
-        names.join(" and ").replace('_', " "),
-        (1000.0 * part).floor() / 10.0,
-        names.join(",")
-    ))
 }
 
 /// Three significant digits.

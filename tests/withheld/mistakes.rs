@@ -471,6 +471,26 @@ fn the_diagnosis_goes_on_without_the_mistake() {
     assert!(found.gap.after.position_rms < 2e-4, "{:?}", found.gap);
 }
 
+/// Frames that stand far from where the file has them are told beside the mistake and fitted along, though nobody says that
+/// they are unknown.
+#[test]
+fn frames_that_stand_elsewhere_are_fitted_beside_the_mistake() {
+    for kind in ["", "reading_coupling"] {
+        let mut case = Case::clean(3, kind);
+        if !kind.is_empty() {
+            case.spoil(kind);
+        }
+        let options = Options { nuisances: Vec::new(), ..case.options() };
+        let found = diagnose(&case.file, &case.data, &options).expect("data of this arm");
+        let mistaken = found.mistaken.expect("a mistake");
+        let mut kinds: Vec<&str> = mistaken.mistakes.iter().map(|wrong| &*wrong.kind).collect();
+        kinds.retain(|told| *told != kind);
+        assert!(!kinds.is_empty() && kinds.iter().all(|k| *k == "unknown_frame"), "{mistaken:?}");
+        assert_eq!(mistaken.mistakes.len() - kinds.len(), usize::from(!kind.is_empty()));
+        assert!(found.gap.after.position_rms < 2e-4, "{:?}", found.gap);
+    }
+}
+
 /// Three quarters of the rows fit without it: what is left of nearly all of them tells.
 #[test]
 fn a_reading_that_sticks_for_a_tenth_of_the_rows_is_named() {

@@ -5,7 +5,7 @@ use std::path::Path;
 use serde::Serialize;
 use sha2::{Digest, Sha256};
 use stiffarm_codegen::robot::Robot;
-use stiffarm_gap::diagnose::{BesideLog, Diagnosed, Explanation, Prediction, Trust};
+use stiffarm_gap::diagnose::{BesideLog, Diagnosed, Explanation, Nuisance, Prediction, Trust};
 use stiffarm_gap::effects::Catalogue;
 use stiffarm_gap::gap::Statistics;
 use stiffarm_gap::measurement::{Dimension, Layout};
@@ -91,11 +91,12 @@ impl Campaign {
         let read = data.zip(files.first());
         let (data, first) =
             read.ok_or_else(|| Failure::new("found no measurements, expected a file"))?;
-        let doubts = data::doubted(&arm, &data, &options.nuisances, host);
+        // Frames that are elsewhere are the diagnosis' to tell.
+        let doubts = data::doubted(&arm, &data, &Nuisance::ALL, host);
         let other =
             settings.check.as_ref().map(|path| data::read(path, &layout, host)).transpose()?;
         if let Some(other) = &other {
-            data::doubted(&arm, other, &options.nuisances, host);
+            data::doubted(&arm, other, &Nuisance::ALL, host);
         }
         let stages = Stages::new(host);
         let mut diagnosed =

@@ -49,6 +49,42 @@ pub fn gathered<K: PartialEq, V>(pairs: impl Iterator<Item = (K, V)>) -> Vec<(K,
     all
 }
 
+/// `joints 1 to 4, 6`: places, those of one kind together and in order.
+pub fn at(places: &[&str]) -> String {
+    let plain = places.iter().filter(|place| numbered(place).is_none());
+    let kinds = gathered(places.iter().filter_map(|place| numbered(place)));
+    let kinds = kinds.into_iter().map(|(kind, mut numbers)| {
+        numbers.sort_unstable();
+        numbers.dedup();
+        let plural = if numbers.len() > 1 { "s" } else { "" };
+        format!("{kind}{plural} {}", ranges(&numbers))
+    });
+    plain.map(|place| (*place).to_owned()).chain(kinds).collect::<Vec<_>>().join(", ")
+}
+
+/// The kind and the number of a place that has one.
+fn numbered(place: &str) -> Option<(&str, usize)> {
+    let (kind, number) = place.split_once(' ')?;
+    Some((kind, number.parse().ok()?))
+}
+
+/// `1 to 4, 6`; from ascending numbers.
+fn ranges(numbers: &[usize]) -> String {
+    let mut runs: Vec<[usize; 2]> = Vec::new();
+    for &n in numbers {
+        match runs.last_mut() {
+            Some(run) if run[1] + 1 == n => run[1] = n,
+            _ => runs.push([n, n]),
+        }
+    }
+    let text = |[from, to]: [usize; 2]| match to - from {
+        0 => from.to_string(),
+        1 => format!("{from}, {to}"),
+        _ => format!("{from} to {to}"),
+    };
+    runs.into_iter().map(text).collect::<Vec<_>>().join(", ")
+}
+
 /// A part in per cent.
 pub fn percent(part: f64) -> String {
     format!("{} %", fixed(100.0 * part, 0))
@@ -81,5 +117,18 @@ pub fn noise_from(source: &str) -> &'static str {
         "repeats" => "from repeats",
         "columns" => "from the sigma columns",
         _ => "as given",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_are_joined() {
+        let joints = ["joint 1", "joint 10", "joint 2", "joint 3", "joint 5", "joint 6"];
+        assert_eq!(at(&joints), "joints 1 to 3, 5, 6, 10");
+        assert_eq!(at(&["link 2"]), "link 2");
+        assert_eq!(at(&["base", "tool"]), "base, tool");
     }
 }

@@ -109,22 +109,26 @@ pub fn diagnose_with(
     options.check()?;
     progress(Stage::Align);
     options.effects()?;
-    let Some((mistaken, mended)) = mistakes::find(arm, data, options) else {
-        return diagnose_as_told(arm, data, options, progress);
-    };
     let mut options = options.clone();
+    let (mut mistaken, mended) = mistakes::find(arm, data, &options).unzip();
+    let mended = mended.flatten();
     // In a gap that is no arm's there is nothing to be found.
-    if mended.as_ref().is_none_or(|mended| !mended.is_whole) {
+    let is_no_arms = mistaken.is_some() && mended.is_none();
+    if is_no_arms || mended.as_ref().is_some_and(|mended| !mended.is_whole) {
         options.effects = Some(Vec::new());
     }
-    let mut diagnosed = match &mended {
-        Some(Mended { arm, data, known, .. }) => {
-            options.known.clone_from(known);
-            diagnose_as_told(arm, data, &options, progress)?
+    let (arm, data) = mended.as_ref().map_or((arm, data), |mended| (&mended.arm, &mended.data));
+    if let Some(mended) = &mended {
+        options.known.clone_from(&mended.known);
+    }
+    if !is_no_arms {
+        if let Some((told, frames)) = mistakes::displaced(arm, data, &options, mistaken.clone()) {
+            mistaken = Some(told);
+            options.nuisances.extend(frames);
         }
-        None => diagnose_as_told(arm, data, &options, progress)?,
-    };
-    diagnosed.diagnosis.mistaken = Some(mistaken);
+    }
+    let mut diagnosed = diagnose_as_told(arm, data, &options, progress)?;
+    diagnosed.diagnosis.mistaken = mistaken;
     Ok(Diagnosed { mended, ..diagnosed })
 }
 

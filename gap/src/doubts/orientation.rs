@@ -3,7 +3,8 @@
 use nalgebra::UnitQuaternion;
 use stiffarm_kernels::generic::Arm;
 
-use super::{FEWEST_POSES, NEARLY_ALL, shown, spread};
+use super::frames::{FEWEST_POSES, NEARLY_ALL};
+use super::{shown, simulated, spread};
 use crate::gap::rms;
 use crate::io::Convention;
 use crate::measurement::{Kind, Measurements, Row};
@@ -26,7 +27,8 @@ pub(super) fn orientations(arm: &Arm, data: &Measurements) -> Option<String> {
     if data.rows.iter().all(|row| row.measured.fixed_rows::<3>(3).amax() == 0.0) {
         return None;
     }
-    let rows = spread(arm, data, 6);
+    let rows = spread(data).filter_map(|(_, row)| Some((simulated(arm, data, 6, row)?, row)));
+    let rows: Vec<(Reading, &Row)> = rows.collect();
     let pairs = || rows.windows(2).filter(|pair| pair[0].1.session == pair[1].1.session);
     let off = |convention: Convention| {
         let turned = |row: &Row| {

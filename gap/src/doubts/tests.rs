@@ -1,3 +1,5 @@
+use nalgebra::Isometry3;
+
 use super::*;
 use crate::fixture::{arm, kr240};
 use crate::plant::design::{Design, Shape};
@@ -152,6 +154,22 @@ fn a_forgotten_frame_is_noticed() {
     other.joints[2].a *= 0.5;
     let data = campaign(&other, Shape::Payload, POSE, &[]);
     assert_eq!(doubts(&arm, &data, &[]), [""; 0]);
+}
+
+/// A base that turns about the first axis, and a zero of that joint, are one to a tracker: the zero is the finding.
+#[test]
+fn a_zero_is_no_frame_that_stands_elsewhere() {
+    let arm = kuka();
+    for joint in 1..=arm.dof() {
+        let zero = format!("joint_offset@joint {joint}=100 mrad");
+        let data = campaign(&arm, Shape::Payload, POSE, &[&zero]);
+        assert!(frames::displaced(&arm, &data, &[], &[]).is_none(), "{zero}");
+    }
+    let data = campaign(&arm, Shape::Payload, POSE, &["base_frame:x=100mm,rz=100mrad"]);
+    let found = frames::displaced(&arm, &data, &[], &[]).unwrap();
+    let [(Nuisance::BaseFrame, moved, turned)] = found.frames[..] else { panic!("{found:?}") };
+    // To rounding and noise of 0.05 mm.
+    assert!((moved - 0.1).abs() < 2e-4 && (turned - 0.1).abs() < 1e-4, "{found:?}");
 }
 
 #[test]

@@ -19,7 +19,8 @@ use stiffarm_codegen::robot::{Angle, Convention, Joint, Robot, Value};
 use stiffarm_kernels::generic::Arm;
 
 use crate::diagnose::{Nuisance, Options};
-use crate::doubts::reach;
+use crate::doubts::frames::Displaced;
+use crate::doubts::{self, reach};
 use crate::effects::{Catalogue, Known};
 use crate::gap::{ascending, middle, percentile};
 use crate::measurement::Measurements;
@@ -28,6 +29,7 @@ use crate::simulate::is_stream;
 use fit::{KEPT, NEARLY_ALL};
 use kind::{Entry, Mistake};
 use rows::Rows;
+pub(crate) use rows::moved;
 use search::{EXPLAINED, Found, Search, Tried};
 
 /// Fewer numbers do not tell frames and six zeros from a mistake: a dozen positions, or six poses.
@@ -119,6 +121,51 @@ pub(crate) fn find(
             Some((told(&nothing, Some(&best), &same, &names, data.rows.len()), Some(mended)))
         }
     }
+}
+
+/// Frames that stand elsewhere than the robot file says by so much that their motion is nearly all of the gap, as
+/// mistakes beside those in `told`: no effect moves a base by a part of the reach. They are fitted along.
+pub(crate) fn displaced(
+    arm: &Arm,
+    data: &Measurements,
+    options: &Options,
+    told: Option<Mistaken>,
+) -> Option<(Mistaken, Vec<Nuisance>)> {
+    let Displaced { frames, gap: position } =
+        doubts::frames::displaced(arm, data, &options.known, &options.nuisances)?;
+    let mut mistaken = told.unwrap_or(Mistaken {
+        mistakes: Vec::new(),
+        same: Vec::new(),
+        position,
+        rotation: [0.0; 2],
+    });
+    mistaken.mistakes.extend(frames.iter().map(|(frame, moved, turned)| {
+        let (moved, degrees) = (1e3 * moved, turned.to_degrees());
+        let (place, sentence) = match frame {
+            Nuisance::BaseFrame => {
+                let turned = format!(", turned by {degrees:.1}°");
+                let turned = if degrees < 0.05 { "" } else { &turned };
+                (
+                    "base",
+                    format!(
+                        "the base stands {moved:.1} mm from where the robot file has it{turned}"
+                    ),
+                )
+            }
+            Nuisance::ToolFrame => (
+                "tool",
+                format!("the measured point is {moved:.1} mm from where the robot file has it"),
+            ),
+        };
+        Wrong {
+            kind: "unknown_frame".into(),
+            place: place.to_owned(),
+            sentence,
+            mending: format!("it is fitted along, as by --nuisance {}", frame.identifier()),
+            in_robot_file: false,
+        }
+    }));
+    Some((mistaken, frames.into_iter().map(|(frame, ..)| frame).collect()))
 }
 
 /// Whether mistakes are looked for in what such a file has.

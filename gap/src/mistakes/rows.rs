@@ -136,8 +136,8 @@ impl<'a> Rows<'a> {
     }
 }
 
-/// What the effects of a robot file move each joint by.
-fn moved(arm: &Arm, data: &Measurements, known: &[Known]) -> Vec<Vec<f64>> {
+/// What the effects of a robot file move each joint by, for each row of the file; empty without any.
+pub(crate) fn moved(arm: &Arm, data: &Measurements, known: &[Known]) -> Vec<Vec<f64>> {
     let of_joints: Vec<(usize, &Known)> = known
         .iter()
         .filter(|known| known.is_there(data))

@@ -194,7 +194,10 @@ impl Search<'_> {
                 true => (MOST_LEFT_OF_LOADS, CERTAIN_OF_LOADS),
                 false => (part, CERTAIN),
             };
-            let ends = one.left.size <= part * against.left.size;
+            // Beside a free reading in each row, rows that fit best say little of the others.
+            let is_free = one.mistakes.iter().any(|mistake| mistake.is_stuck());
+            let size = |left: &Left| if is_free { left.of_nearly_all } else { left.size };
+            let ends = size(&one.left) <= part * size(&against.left);
             let is_explained = one.left.size <= EXPLAINED * self.reach_without(&one.mistakes);
             ends && is_explained && gain > tried_all + certain
         });

@@ -16,7 +16,11 @@ impl Campaign<'_> {
     /// `Joint 2 turns against its reading. With it mended the position error is 0.75 mm instead of 254 mm.`
     pub(super) fn mistaken(&self, wrong: &Mistaken) -> String {
         let what: Vec<&str> = wrong.mistakes.iter().map(|wrong| wrong.sentence.as_str()).collect();
-        let it = if what.len() == 1 { "With it mended" } else { "With both mended" };
+        let it = match what.len() {
+            1 => "With it mended",
+            2 => "With both mended",
+            _ => "With all mended",
+        };
         format!("{}. {it} {}.", capital(&what.join(", and ")), self.change(wrong))
     }
 
@@ -24,7 +28,7 @@ impl Campaign<'_> {
     /// of rotations where the mistake changes nothing else.
     fn change(&self, wrong: &Mistaken) -> String {
         let [[before, after], [turned, turns]] = [wrong.position, wrong.rotation];
-        let in_rotation = after > TURNED * before && turns <= TURNED * turned;
+        let in_rotation = after > TURNED * before && turned > 0.0 && turns <= TURNED * turned;
         let (what, unit, [before, after]) = match in_rotation {
             true => ("rotation", "rad", [turned, turns]),
             false => ("position", "m", [before, after]),

@@ -118,8 +118,9 @@ impl Campaign<'_> {
                 )
             }
             (false, "residual") => format!(
-                "Nothing is found: no effect that was tried reduces the {error}, {size} rms, on held-out \
+                "Nothing {}is found: no effect that was tried reduces the {error}, {size} rms, on held-out \
                  poses.{}",
+                if self.found.mistaken.is_some() { "else " } else { "" },
                 self.too_few()
             ),
             (false, _) => format!(

@@ -4,6 +4,7 @@ mod joints;
 mod notes;
 
 use serde::Serialize;
+use stiffarm_gap::log::effects::CATALOGUE;
 use stiffarm_gap::log::model::Explained;
 use stiffarm_gap::log::report::JointGap;
 use stiffarm_gap::log::{Domain, LogDiagnosis};
@@ -11,15 +12,15 @@ use stiffarm_gap::report::{Alternative, Finding, Parameter};
 use stiffarm_kernels::generic::Arm;
 
 use super::figure::{self, LOG, Step};
-use super::findings::{steps, told};
+use super::findings::{steps, weighed};
 use super::report::{Errors, Method, Report, explained};
-use super::words::{capital, less, named, percent};
+use super::words::{at, capital, gathered, joined, less, named, percent, words};
 use super::{Block, Cell, Document, Embedded, Row, Table, Unit};
 use crate::diagnose::LogCheck;
 use crate::input::quantity::counted;
 use crate::terminal::text::{decimals, fixed, minus, short};
 
-/// Findings that the sentence names.
+/// Effects that the sentence names.
 const NAMED: usize = 4;
 
 /// How every log is diagnosed.
@@ -131,10 +132,11 @@ impl Log<'_> {
                  time."
             );
         }
-        let lacks = told(&found.findings, NAMED, " and ", |f| named(&f.effect, &f.place));
         let mut text = format!(
-            "The model lacks {lacks}; modelling {} reduces the rms {error} from {before} to {after} {what}, mean over \
+            "The model {}; {} {} reduces the rms {error} from {before} to {after} {what}, mean over \
              the joints on held-out time: {}.",
+            self.wrong(),
+            if found.findings.iter().all(is_taken_back) { "correcting" } else { "modelling" },
             if found.findings.len() == 1 { "it" } else { "them" },
             less(&found.shrink)
         );
@@ -150,6 +152,27 @@ impl Log<'_> {
             text.push_str(&format!(" This log does not distinguish {findings} from others."));
         }
         text
+    }
+
+    /// `lacks Coulomb friction at joints 1 to 6 and 2 small effects and has too much viscous friction at joint 2`.
+    fn wrong(&self) -> String {
+        let [large, small] = weighed(&self.found.findings);
+        let each = large.into_iter().map(|(_, f)| ((is_taken_back(f), &*f.effect), &*f.place));
+        let mut kinds = gathered(each);
+        let first = if kinds.len() > NAMED { NAMED - 1 } else { kinds.len() };
+        let more: usize = kinds.drain(first..).map(|(_, places)| places.len()).sum();
+        let [mut lacks, mut has] = [const { Vec::new() }; 2];
+        for ((is_excess, effect), places) in kinds {
+            let list = if is_excess { &mut has } else { &mut lacks };
+            list.push(format!("{} at {}", words(effect), at(&places)));
+        }
+        let rest = [(more, "more effect"), (small.len(), "small effect")];
+        lacks.extend(rest.into_iter().filter(|(n, _)| *n > 0).map(|(n, what)| counted(n, what)));
+        let both = [("lacks", lacks), ("has too much", has)].into_iter();
+        let both = both.filter(|(_, list)| !list.is_empty());
+        both.map(|(verb, list)| format!("{verb} {}", joined(&list, " and ")))
+            .collect::<Vec<_>>()
+            .join(" and ")
     }
 
     /// What remains of another log.
@@ -300,4 +323,15 @@ fn parameter(p: &Parameter) -> String {
     };
     let [low, high] = p.ci95.map(shown);
     format!("{} {} [{low} to {high}] {}", p.name, shown(p.value), p.unit)
+}
+
+/// Whether a finding takes back a part of what the robot file has: its amounts are negative, and no drive has less
+/// than none of them.
+fn is_taken_back(finding: &Finding) -> bool {
+    let effect = CATALOGUE.iter().find(|effect| effect.identifier() == &*finding.effect);
+    let is_amount = |name: &str| {
+        effect.is_some_and(|e| e.parameters().iter().any(|p| p.key == name && p.least == 0.0))
+    };
+    let amounts = || finding.parameters.iter().filter(|p| is_amount(&p.name));
+    amounts().next().is_some() && amounts().all(|p| p.value < 0.0)
 }
