@@ -41,6 +41,7 @@ use crate::input::quantity::{self, counted};
 use crate::input::source::{RobotArgs, Source};
 use crate::terminal::failure::Failure;
 use crate::terminal::output::Target;
+use crate::terminal::text::words;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -266,10 +267,7 @@ fn in_words(stage: Stage) -> String {
         Stage::Align => "simulating the rows and fitting the unknown frames".to_owned(),
         Stage::Search(found) => format!("looking for effects, {found} found"),
         Stage::Try(found, effect, place) => {
-            format!(
-                "looking for effects, {found} found: fitting {} at {place}",
-                effect.replace('_', " ")
-            )
+            format!("looking for effects, {found} found: fitting {} at {place}", words(effect))
         }
         Stage::Judge(found) => format!("judging {} and their rivals", counted(found, "finding")),
     }

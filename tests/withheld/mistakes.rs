@@ -555,6 +555,21 @@ fn few(seeds: core::ops::Range<u64>) -> [usize; 4] {
     all
 }
 
+/// In sockets the tool is in few places, which are nearly in a plane: that is no reason against a mistake.
+#[test]
+fn a_mistake_in_sockets_is_named() {
+    let sockets = Kind::Bench { lengths: 3, angles: false };
+    let mut case = Case::measured(7002, "swapped_readings", 80, Some(sockets));
+    let place = case.spoil("swapped_readings");
+    let found = case.found();
+    let planted = [("swapped_readings", place)];
+    assert!(
+        found.as_ref().is_some_and(|found| is_that(&found.mistakes, &planted)),
+        "{}",
+        names(&found)
+    );
+}
+
 /// A case of each instrument, and of few poses.
 #[test]
 fn instruments_quick() {

@@ -20,6 +20,7 @@ use crate::input::source::{RobotArgs, Source};
 use crate::terminal::failure::{Failure, Remark};
 use crate::terminal::output::Target;
 use crate::terminal::progress::Progress;
+use crate::terminal::text::words;
 
 /// A program, and what it does not say itself.
 #[derive(clap::Args)]
@@ -145,8 +146,7 @@ impl ProgramArgs {
         source.refuse_undecided("compensate --program", real, &known)?;
         match real.undecided(&Situation::under(*load)) {
             Some((effect, unknown)) if !has_home => {
-                let (name, place) =
-                    (effect.effect.identifier().replace('_', " "), effect.spot.place);
+                let (name, place) = (words(effect.effect.identifier()), effect.spot.place);
                 Err(Failure::with_help(
                     format!(
                         "the {name} at {place} depends on {unknown}, and nothing is known of where the program begins"

@@ -2,12 +2,8 @@
 
 use stiffarm_gap::shrink::Shrink;
 
+pub use crate::terminal::text::words;
 use crate::terminal::text::{decimals, fixed};
-
-/// `joint_compliance` as it is written in a sentence.
-pub fn words(identifier: &str) -> String {
-    identifier.replace('_', " ")
-}
 
 /// `joint compliance at joint 2`.
 pub fn named(effect: &str, place: &str) -> String {

@@ -11,6 +11,7 @@ use stiffarm_kernels::{Input, Output};
 
 use super::source::Source;
 use crate::terminal::failure::{Failure, Remark};
+use crate::terminal::text::words;
 
 impl Source {
     /// The robot as kernels are made of it: its effects compiled.
@@ -66,7 +67,7 @@ impl Source {
         let (Some(effect), Some(output)) = (felt, outputs.iter().find(moves)) else {
             return Ok(());
         };
-        let (id, place) = (effect.id.value.replace('_', " "), &effect.place.value);
+        let (id, place) = (words(&effect.id.value), &effect.place.value);
         let message = format!("{} has no {id}, as the file has at {place}", output.name());
         let help = "ask for other --outputs, or take the [[effect]] out of a copy of the file";
         Err(self.mistakes([(&effect.at, message, Some(help.to_owned()))]))
@@ -103,7 +104,7 @@ impl Source {
     }
 
     fn refusal(&self, command: &str, known: &Known, because: &str) -> Failure {
-        let name = known.effect.identifier().replace('_', " ");
+        let name = words(known.effect.identifier());
         let place = known.spot.place;
         let message =
             format!("`stiffarm {command}` does not honour the {name} at {place}{because}");

@@ -6,6 +6,14 @@ pub use stiffarm_gap::io::listed;
 /// Of a quotation that is longer nobody reads all.
 const LONGEST_QUOTED: usize = 120;
 
+/// `joint_compliance` as it is written in a sentence.
+pub fn words(identifier: &str) -> String {
+    // Named after people.
+    let names = [("coulomb", "Coulomb"), ("stribeck", "Stribeck")];
+    let words = identifier.replace('_', " ");
+    names.into_iter().fold(words, |words, (from, to)| words.replace(from, to))
+}
+
 /// How a column is aligned.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Align {

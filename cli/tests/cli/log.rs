@@ -42,7 +42,7 @@ fn friction_is_told_with_its_numbers() {
     let log = folder.file("log.csv", rows(HEADER));
     let json = folder.name("log.json");
     let out = run(&format!("diagnose {robot} {log} --torque-side motor --json {json}")).good();
-    assert!(out.contains("coulomb friction at joint 1"), "{out}");
+    assert!(out.contains("Coulomb friction at joint 1"), "{out}");
     assert!(out.contains("viscous friction at joint 1"), "{out}");
     assert!(out.contains("torque scale at every joint: with free masses"), "{out}");
     assert!(out.lines().all(|line| line.chars().count() <= 100), "{out}");

@@ -28,7 +28,7 @@ fn a_simulated_log_is_diagnosed() {
     assert!(written.contains("# effect coulomb_friction@joint 2:coulomb=3e0 (SI)"), "{written}");
     assert!(written.contains("# torque_side = motor"), "{written}");
     let found = stiffarm(&["diagnose", &robot, &log, "--quiet"]).good();
-    assert!(found.contains("coulomb friction at joint 2"), "{found}");
+    assert!(found.contains("Coulomb friction at joint 2"), "{found}");
     // The same bytes again; without the effect's name where it is withheld.
     assert_eq!(moved("-"), written);
     let blind = moved("- --withhold");
@@ -70,7 +70,7 @@ fn a_chosen_motion_is_what_simulate_takes() {
     let commands = folder.name("commands.csv");
     let plan = "--for motion --period 8s --harmonics 5 --max-rate 1.2 --max-acceleration 4";
     let screen = run(&format!("poses {robot} {plan} --csv {commands}")).good();
-    assert!(screen.contains("coulomb friction at joint 3") && screen.contains(" ×"), "{screen}");
+    assert!(screen.contains("Coulomb friction at joint 3") && screen.contains(" ×"), "{screen}");
     assert!(screen.contains("rotor inertia at joint 1"), "{screen}");
     let written = read(&commands);
     let (names, rows) = columns(&written);

@@ -15,7 +15,8 @@ use super::rows::Rows;
 use super::search::{ORDINARY, Search};
 use crate::diagnose::{Options, Problem, aligned, prior_penalty, refit};
 use crate::gap::rms;
-use crate::measurement::{Kind, Measurements};
+use crate::measurement::{Kind, Measurements, Row};
+use crate::observe::View;
 
 /// Halvings of the step from one zero that is tried to the next, 15°: to a tenth of a milliradian.
 const HALVINGS: usize = 12;
@@ -34,16 +35,20 @@ pub(super) fn numbers(data: &Measurements) -> Option<usize> {
     }
 }
 
-/// Whether an arm moves its tool in a plane, or nearly so, where the file's arm does not: any plate would fit it.
+/// Whether an arm moves its tool in a plane, or nearly so, at the rows of plates, where the file's arm does not: any plate
+/// would fit it. In sockets the tool is where they are.
 fn is_flat(arm: &Arm, data: &Measurements, told: &Arm, rows: &[usize], all: &Rows<'_>) -> bool {
-    let thickness = |arm: &Arm, readings: &mut dyn Iterator<Item = &Vec<f64>>| {
-        let points: Vec<Vector3<f64>> = readings.map(|q| arm.pose(q).translation.vector).collect();
+    let is_on_plate =
+        |row: &&Row| row.aim.as_ref().is_some_and(|aim| matches!(aim.view, View::Plane(_)));
+    let thickness = |arm: &Arm, rows: &mut dyn Iterator<Item = &Row>| {
+        let points: Vec<Vector3<f64>> =
+            rows.filter(is_on_plate).map(|row| arm.pose(&row.q).translation.vector).collect();
         let mean = points.iter().sum::<Vector3<f64>>() / points.len() as f64;
         let spread = points.iter().map(|p| (p - mean) * (p - mean).transpose());
         spread.sum::<Matrix3<f64>>().symmetric_eigenvalues().min().max(0.0).sqrt()
     };
-    let is = thickness(arm, &mut data.rows.iter().map(|row| &row.q));
-    let was = thickness(told, &mut rows.iter().map(|row| &all.data.rows[*row].q));
+    let is = thickness(arm, &mut data.rows.iter());
+    let was = thickness(told, &mut rows.iter().map(|row| &all.data.rows[*row]));
     is < FLAT * was
 }
 

@@ -3,7 +3,7 @@
 use stiffarm_gap::report::campaign::{Mistaken, Wrong};
 
 use super::Campaign;
-use crate::document::words::capital;
+use crate::document::words::{capital, joined};
 use crate::document::{Block, Unit};
 
 /// Other explanations before the rest is counted.
@@ -15,13 +15,13 @@ const TURNED: f64 = 0.5;
 impl Campaign<'_> {
     /// `Joint 2 turns against its reading. With it mended the position error is 0.75 mm instead of 254 mm.`
     pub(super) fn mistaken(&self, wrong: &Mistaken) -> String {
-        let what: Vec<&str> = wrong.mistakes.iter().map(|wrong| wrong.sentence.as_str()).collect();
+        let what: Vec<String> = wrong.mistakes.iter().map(|wrong| wrong.sentence.clone()).collect();
         let it = match what.len() {
             1 => "With it mended",
             2 => "With both mended",
             _ => "With all mended",
         };
-        format!("{}. {it} {}.", capital(&what.join(", and ")), self.change(wrong))
+        format!("{}. {it} {}.", capital(&joined(&what, ", and ")), self.change(wrong))
     }
 
     /// What the error is without mistakes and with them, frames, zeros and springs fitted to both: of positions, or

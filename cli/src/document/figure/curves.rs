@@ -6,6 +6,7 @@ use stiffarm_gap::effects::{Catalogue, Place};
 use stiffarm_gap::measurement::Row;
 
 use super::shape::Shaped;
+use crate::document::words::named;
 
 /// The curves of all findings that have one. Of a displacement only what is in proportion to the load
 /// is a function of one state.
@@ -23,7 +24,7 @@ pub fn curves<'a>(
     let curve = |finding: &'a Finding| {
         let Ok(Place::Joint(joint)) = finding.place.parse() else { return None };
         let curve = catalogue.named(&finding.effect)?.curve(&finding.parameters)?;
-        let title = format!("{} at {}", finding.effect.replace('_', " "), finding.place);
+        let title = named(&finding.effect, &finding.place);
         (curve.proportional || !displaced).then(|| Shaped { title, joint: joint - 1, curve })
     };
     found.findings.iter().filter_map(curve).collect()

@@ -97,7 +97,7 @@ fn an_effect_of_motion_is_part_of_the_model() {
     stiffarm(&["generate", &knows, "--emit", "rust", "--outputs", "pose"]).good();
     let err = stiffarm(&["generate", &knows, "--emit", "rust", "--outputs", "inverse_dynamics"])
         .refused();
-    assert!(err.contains("inverse_dynamics has no coulomb friction"), "{err}");
+    assert!(err.contains("inverse_dynamics has no Coulomb friction"), "{err}");
 }
 
 #[test]
