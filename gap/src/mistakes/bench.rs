@@ -11,7 +11,6 @@ use stiffarm_kernels::generic::Arm;
 
 use super::fit::{Left, NEARLY_ALL, best};
 use super::kind::{Entry, Mistake};
-use super::rows::Rows;
 use super::search::{ORDINARY, Search};
 use crate::diagnose::{Options, Problem, aligned, prior_penalty, refit};
 use crate::gap::rms;
@@ -21,8 +20,9 @@ use crate::observe::View;
 /// Halvings of the step from one zero that is tried to the next, 15°: to a tenth of a milliradian.
 const HALVINGS: usize = 12;
 
-/// Part of the file's arm's thickness, the least spread of its tool, below which an arm moves in a plane: joints that are
-/// read otherwise than they are meant leave more than a half.
+/// Part of the spread of the tool across a plane: where a mistake leaves less of the file's arm's the arm is flat, and where
+/// plates leave more of its own one plate would do for all. Joints that are read otherwise than they are meant leave more
+/// than a half of the first, and true mistakes less than a tenth of the second.
 const FLAT: f64 = 0.2;
 
 /// How many numbers a row has, where it has no pose.
@@ -35,21 +35,16 @@ pub(super) fn numbers(data: &Measurements) -> Option<usize> {
     }
 }
 
-/// Whether an arm moves its tool in a plane, or nearly so, at the rows of plates, where the file's arm does not: any plate
-/// would fit it. In sockets the tool is where they are.
-fn is_flat(arm: &Arm, data: &Measurements, told: &Arm, rows: &[usize], all: &Rows<'_>) -> bool {
+/// How far an arm moves its tool across the plane that fits it best, root mean square at rows of plates, m; of an arm that
+/// moves in a plane any plate takes all points.
+fn thickness<'r>(arm: &Arm, rows: impl Iterator<Item = &'r Row>) -> f64 {
     let is_on_plate =
         |row: &&Row| row.aim.as_ref().is_some_and(|aim| matches!(aim.view, View::Plane(_)));
-    let thickness = |arm: &Arm, rows: &mut dyn Iterator<Item = &Row>| {
-        let points: Vec<Vector3<f64>> =
-            rows.filter(is_on_plate).map(|row| arm.pose(&row.q).translation.vector).collect();
-        let mean = points.iter().sum::<Vector3<f64>>() / points.len() as f64;
-        let spread = points.iter().map(|p| (p - mean) * (p - mean).transpose());
-        spread.sum::<Matrix3<f64>>().symmetric_eigenvalues().min().max(0.0).sqrt()
-    };
-    let is = thickness(arm, &mut data.rows.iter());
-    let was = thickness(told, &mut rows.iter().map(|row| &all.data.rows[*row]));
-    is < FLAT * was
+    let points: Vec<Vector3<f64>> =
+        rows.filter(is_on_plate).map(|row| arm.pose(&row.q).translation.vector).collect();
+    let mean = points.iter().sum::<Vector3<f64>>() / points.len() as f64;
+    let spread: Matrix3<f64> = points.iter().map(|p| (p - mean) * (p - mean).transpose()).sum();
+    (spread.symmetric_eigenvalues().min().max(0.0) / points.len() as f64).sqrt()
 }
 
 impl Search<'_> {
@@ -67,7 +62,7 @@ impl Search<'_> {
         let known = super::known(mistakes, &options.known, &options.catalogue);
         let options =
             Options { effects: Some(Vec::new()), geometry: along, known, ..options.clone() };
-        if 2 * data.rows.len() < rows.len() || is_flat(&arm, &data, self.arm, rows, &self.rows) {
+        if 2 * data.rows.len() < rows.len() {
             return None;
         }
         let problem = Problem::new(&arm, &data, &options).ok()?;
@@ -79,6 +74,11 @@ impl Search<'_> {
         let sizes: Vec<f64> = fit.predicted.gaps.iter().map(size).collect();
         let position = rms(&sizes);
         let size = best(self.kept, sizes.iter().copied());
+        let is = thickness(&arm, data.rows.iter());
+        let was = thickness(self.arm, rows.iter().map(|row| &self.rows.data.rows[*row]));
+        if is < FLAT * was && size > FLAT * is {
+            return None;
+        }
         size.is_finite().then_some(Left {
             size,
             of_nearly_all: best(NEARLY_ALL, sizes.into_iter()),

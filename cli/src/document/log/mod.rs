@@ -154,7 +154,7 @@ impl Log<'_> {
         text
     }
 
-    /// `lacks Coulomb friction at joints 1 to 6 and 2 small effects and has too much viscous friction at joint 2`.
+    /// `lacks Coulomb friction at joints 1 to 6 and has too much viscous friction at joint 2, beside 2 small effects`.
     fn wrong(&self) -> String {
         let [large, small] = weighed(&self.found.findings);
         let each = large.into_iter().map(|(_, f)| ((is_taken_back(f), &*f.effect), &*f.place));
@@ -166,13 +166,15 @@ impl Log<'_> {
             let list = if is_excess { &mut has } else { &mut lacks };
             list.push(format!("{} at {}", words(effect), at(&places)));
         }
-        let rest = [(more, "more effect"), (small.len(), "small effect")];
-        lacks.extend(rest.into_iter().filter(|(n, _)| *n > 0).map(|(n, what)| counted(n, what)));
         let both = [("lacks", lacks), ("has too much", has)].into_iter();
         let both = both.filter(|(_, list)| !list.is_empty());
-        both.map(|(verb, list)| format!("{verb} {}", joined(&list, " and ")))
-            .collect::<Vec<_>>()
-            .join(" and ")
+        let both: Vec<String> =
+            both.map(|(verb, list)| format!("{verb} {}", joined(&list, " and "))).collect();
+        let rest = [(more, "more effect"), (small.len(), "small effect")].into_iter();
+        let rest: Vec<String> =
+            rest.filter(|(n, _)| *n > 0).map(|(n, what)| counted(n, what)).collect();
+        let beside = if rest.is_empty() { "" } else { ", beside " };
+        format!("{}{beside}{}", both.join(" and "), joined(&rest, " and "))
     }
 
     /// What remains of another log.
