@@ -193,10 +193,6 @@ pub trait Found: Send + Sync {
     }
 }
 
-/// Runs the command.
-///
-/// # Errors
-/// [`Failure`]: the robot, the data, the options, or an output that cannot be written.
 pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     let found = diagnose(&args.robot, &args.data, &args.settings, Catalogues::default(), host)?;
     host.put(&args.json, || found.json())?;

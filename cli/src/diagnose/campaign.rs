@@ -64,9 +64,6 @@ pub(super) struct Told<'a> {
 impl Campaign {
     /// Reads and diagnoses the measurements in `files` as one campaign, with the effects of `catalogue` and the springs
     /// that a log tells.
-    ///
-    /// # Errors
-    /// [`Failure`]: the data or the options.
     pub(super) fn new(
         settings: &Settings,
         source: Source,

@@ -33,9 +33,6 @@ const RATE: f64 = 100.0;
 const TRIES: usize = 150;
 
 /// Chooses a motion and writes its commands.
-///
-/// # Errors
-/// [`Failure`]: the robot, the limits, the effects, or an output that cannot be written.
 pub(super) fn run(args: &Args, source: &Source, host: &Host) -> Result<Verdict, Failure> {
     if args.count.is_some() || !args.loads.is_empty() || !args.nuisance.is_empty() || args.rotations
     {

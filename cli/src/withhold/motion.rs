@@ -11,9 +11,6 @@ use crate::motion::{self, Courses};
 use crate::terminal::failure::Failure;
 
 /// Moves the arm many times, with an effect or without; and whether positions are logged.
-///
-/// # Errors
-/// [`Failure`]: the robot, the commands, or the options.
 pub(super) fn report(args: &Args, host: &Host) -> Result<(Report, bool), Failure> {
     let source = args.robot.load(host)?;
     let arm = motion::arm(&source, "withhold --motion")?;

@@ -57,9 +57,6 @@ fn motions(arm: &Arm) -> Vec<stiffarm_kernels::Motion> {
 
 impl Motion {
     /// Reads and diagnoses a log, with the effects of `catalogue`.
-    ///
-    /// # Errors
-    /// [`Failure`]: the log or the options.
     pub(in super::super) fn new(
         settings: &Settings,
         source: Source,
