@@ -14,33 +14,12 @@ pub const EXACT: Noise = Noise { position: 0.0, rotation: 0.0 };
 
 /// A revolute row: theta, d, a, alpha.
 pub fn row(theta: f64, d: f64, a: f64, alpha: f64) -> Joint {
-    Joint {
-        motion: Motion::Revolute,
-        theta,
-        d,
-        a,
-        alpha,
-        beta: 0.0,
-        compliance: 0.0,
-        mass: 0.0,
-        com: Vector3::zeros(),
-        inertia: Default::default(),
-        drive: Default::default(),
-        limits: None,
-        beam: None,
-    }
+    Joint { theta, d, a, alpha, ..Joint::default() }
 }
 
 pub fn arm(convention: Convention, joints: Vec<Joint>) -> Arm {
-    Arm {
-        name: "arm".to_owned(),
-        convention,
-        joints,
-        base: Isometry3::identity(),
-        tool: Isometry3::identity(),
-        tool_rotation_vector: Vector3::zeros(),
-        gravity: Vector3::new(0.0, 0.0, -9.80665),
-    }
+    let gravity = Vector3::new(0.0, 0.0, -9.80665);
+    Arm { name: "arm".to_owned(), convention, joints, gravity, ..Arm::default() }
 }
 
 /// A box section without symmetry.
