@@ -107,8 +107,6 @@ fn form(name: &str, fastest: f64) -> f64 {
 }
 
 impl Columns {
-    /// # Errors
-    /// [`MotionError`]: an arm that moves no mass.
     pub(super) fn of(
         plan: &Plan<'_>,
         suspects: &Suspects,

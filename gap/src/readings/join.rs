@@ -112,9 +112,6 @@ pub(super) enum Met {
 }
 
 /// `ours` with the columns of `other` that it has not itself.
-///
-/// # Errors
-/// [`ReadError`]: rows that do not belong together.
 pub(super) fn join<'t>(
     ours: Table<'t>,
     other: &Table<'t>,
