@@ -113,10 +113,14 @@ pub struct Catalogues {
 /// What a diagnosis found, of whatever data.
 pub trait Found: Send + Sync {
     /// What was measured at rest; `None` of a log alone.
-    fn campaign(&self) -> Option<&Campaign>;
+    fn campaign(&self) -> Option<&Campaign> {
+        None
+    }
 
     /// What was logged in motion; `None` of measurements alone.
-    fn motion(&self) -> Option<&Motion>;
+    fn motion(&self) -> Option<&Motion> {
+        None
+    }
 
     /// The diagnosis in JSON.
     ///

@@ -7,7 +7,6 @@ use stiffarm_kernels::generic::{Arm, Beam, Convention, Joint};
 
 use crate::effects::{Catalogue, Known, Spot};
 use crate::measurement::{Kind, Layout, Measurements, Row};
-use crate::observe::Bench;
 
 fn joint(a: f64, alpha: f64, d: f64) -> Joint {
     Joint { d, a, alpha, mass: 12.0, com: Vector3::new(-a / 2.0, 0.0, 0.02), ..Joint::default() }
@@ -76,13 +75,7 @@ pub(crate) fn table(rows: Vec<Row>, kind: Kind) -> Measurements {
 
 /// A robot of revolute joints without markers.
 pub(crate) fn layout(joints: usize) -> Layout {
-    Layout {
-        motions: vec![Motion::Revolute; joints],
-        readings: true,
-        markers: Vec::new(),
-        payloads: None,
-        bench: Bench::NONE,
-    }
+    Layout::new(vec![Motion::Revolute; joints])
 }
 
 /// An effect of a robot file.

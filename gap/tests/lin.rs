@@ -86,13 +86,7 @@ fn data() -> Measurements {
             format!("{theta1},{theta2},-1.02,-{exp},-{printed},{:e},{:e},{:e}\n", -ycd, -ytd, -yt);
         text.push_str(&line);
     }
-    let layout = Layout {
-        motions: vec![Motion::Revolute; 2],
-        readings: true,
-        markers: Vec::new(),
-        payloads: None,
-        bench: stiffarm_gap::observe::Bench::NONE,
-    };
+    let layout = Layout::new([Motion::Revolute; 2]);
     Measurements::from_bytes("lin1991_table3.csv", text.as_bytes(), &layout).unwrap()
 }
 

@@ -1,8 +1,8 @@
 //! Commands of a motion whose log says most.
 
+use stiffarm_gap::effects::Spot;
 use stiffarm_gap::excite::{Excitation, Plan, Purpose, excite};
 use stiffarm_gap::motion::{Course, commands};
-use stiffarm_gap::effects::Spot;
 use stiffarm_gap::plant::motion::{Law, Logged, MotionTruth, Side};
 use stiffarm_kernels::generic::Arm;
 

@@ -34,14 +34,12 @@ rotation = [0, "90 deg", 0]
 fn layout() -> Layout {
     let marker = |name: &str, translation| Marker { name: name.to_owned(), translation };
     Layout {
-        readings: true,
-        motions: vec![Motion::Revolute, Motion::Revolute, Motion::Prismatic],
         markers: vec![marker("smr1", Some([0.0, 0.1, 0.02])), marker("smr2", None)],
         payloads: Some(Payloads {
             bodies: vec![body("5kg", 5.0, [0.0, 0.0, 0.06]), body("ball", 0.5, [0.01, 0.0, 0.0])],
             arm: carrier(),
         }),
-        bench: Bench::NONE,
+        ..Layout::new([Motion::Revolute, Motion::Revolute, Motion::Prismatic])
     }
 }
 

@@ -121,8 +121,7 @@ pub fn frames(base: Isometry3<f64>, tool: Isometry3<f64>) -> Frames {
 
 /// What the reader of a file has to know of an arm on a bench.
 pub fn layout(arm: &Arm, bench: Bench) -> Layout {
-    let motions = arm.joints.iter().map(|j| j.motion).collect();
-    Layout { motions, readings: true, markers: Vec::new(), payloads: None, bench }
+    Layout { bench, ..Layout::new(arm.joints.iter().map(|j| j.motion)) }
 }
 
 /// A joint that is softer than the file says, rad/(N·m).

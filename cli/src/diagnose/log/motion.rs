@@ -13,7 +13,7 @@ use stiffarm_gap::spring::Spring;
 use stiffarm_kernels::generic::Arm;
 
 use super::super::corrected::made_from;
-use super::super::{Campaign, Found, PredictedLog, Settings};
+use super::super::{Found, PredictedLog, Settings};
 use super::Check;
 use super::files::{self, Part};
 use super::written::Written;
@@ -178,10 +178,6 @@ impl Motion {
 }
 
 impl Found for Motion {
-    fn campaign(&self) -> Option<&Campaign> {
-        None
-    }
-
     fn motion(&self) -> Option<&Motion> {
         Some(self)
     }
