@@ -1,6 +1,6 @@
 //! `stiffarm import`.
 
-use crate::support::{Folder, stiffarm};
+use crate::support::{Folder, numbers, read, stiffarm};
 
 #[test]
 fn the_robot_file_can_be_used_at_once() {
@@ -9,7 +9,7 @@ fn the_robot_file_can_be_used_at_once() {
     let run = stiffarm(&["import", "tests/data/urdf/panda.urdf", "--toml", &out]);
     assert_eq!((run.status, run.out.as_str()), (0, ""));
     assert!(run.err.starts_with("note: forward kinematics as in the URDF to "), "{}", run.err);
-    let toml = std::fs::read_to_string(&out).expect("written");
+    let toml = read(&out);
     assert!(toml.starts_with("# Imported by stiffarm from tests/data/urdf/panda.urdf"), "{toml}");
     let printed = stiffarm(&["--quiet", "import", "tests/data/urdf/panda.urdf"]).good();
     assert_eq!(printed, toml);
@@ -18,10 +18,7 @@ fn the_robot_file_can_be_used_at_once() {
         |robot: &str| stiffarm(&["eval", robot, "--q", q, "--gravity", "--json", "-"]).json();
     let (ours, built_in) = (evaluated(&out), evaluated("panda"));
     for key in ["position", "joint_torque"] {
-        let list = |v: &serde_json::Value| -> Vec<f64> {
-            v[key].as_array().expect("a list").iter().filter_map(|x| x.as_f64()).collect()
-        };
-        for (a, b) in list(&ours).iter().zip(list(&built_in)) {
+        for (a, b) in numbers(&ours[key]).iter().zip(numbers(&built_in[key])) {
             assert!((a - b).abs() < 1e-12, "{key}: {a} is not {b}");
         }
     }

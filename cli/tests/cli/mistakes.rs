@@ -1,6 +1,6 @@
 //! Mistakes of a file as a user meets them: named first, mended in the robot file, or given up.
 
-use crate::support::{Folder, flat, read, run};
+use crate::support::{Folder, Table, flat, read, run};
 
 /// A UR5 with a tool, measured where nobody knows, by the command itself; its measurements as header and rows.
 fn campaign(folder: &Folder) -> (String, Vec<Vec<String>>) {
@@ -9,10 +9,9 @@ fn campaign(folder: &Folder) -> (String, Vec<Vec<String>>) {
     let given = "--poses 40 --payload 0kg --measure position --noise-position 30um";
     run(&format!("simulate ur5 {given} {zeros} --csv {path}")).good();
     let all = read(&path);
-    let mut lines = all.lines().filter(|line| !line.starts_with('#'));
-    let header = lines.next().expect("a header").to_owned();
-    let cells = |line: &str| line.split(',').map(str::to_owned).collect();
-    (header, lines.map(cells).collect())
+    let Table { names, rows, .. } = Table::of(&all);
+    let owned = |row: Vec<&str>| row.into_iter().map(str::to_owned).collect();
+    (names.join(","), rows.into_iter().map(owned).collect())
 }
 
 /// The column of that name.

@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 use super::plant::{Bench, SLACK, SPRING, ZERO};
-use crate::support::{Run, flat, json, read, stiffarm};
+use crate::support::{Run, flat, json, number, numbers, read, stiffarm};
 
 /// A diagnosis that tries few effects: quick in any build.
 fn diagnosed(bench: &Bench, run: &str, extra: &[&str]) -> Run {
@@ -23,7 +23,7 @@ fn what_is_not_accepted_is_an_exit_status() {
     assert_eq!(bad.status, 1, "{}", bad.err);
     assert!(flat(&bad.out).contains("Not accepted: with the findings 95 % of the held-out rows"));
     let accept = &json(&read(&bench.path("a.json")))["accept"];
-    let reached = accept["position_p95"].as_f64().expect("a number");
+    let reached = number(&accept["position_p95"]);
     // Of the norm of three normal numbers 95 % lie below 2.80 of their deviation; a fifth to either
     // side for 60 rows.
     assert!((reached / (2.80 * 30e-6) - 1.0).abs() < 0.2, "{reached:e}");
@@ -57,7 +57,7 @@ fn the_last_campaign_is_compared_with() {
         again.contains("µrad/(N·m), no significant change") && !again.contains("new:"),
         "{again}"
     );
-    let page = std::fs::read_to_string(page).expect("written");
+    let page = read(&page);
     assert!(page.contains("<li>both diagnoses are of the same measurements</li>"));
 }
 
@@ -83,9 +83,7 @@ fn the_corrected_arm_is_a_urdf_and_an_mjcf() {
         // Neither side of the play.
         let sides = if robot == better { &["--sides", "0,0,0"][..] } else { &[] };
         let at = ["eval", robot, "--q", "0.3,-0.8,1.1", "--json", "-"];
-        let found = stiffarm(&[&at[..], sides].concat()).json();
-        let three = found["position"].as_array().expect("three").iter();
-        three.map(|x| x.as_f64().expect("a number")).collect()
+        numbers(&stiffarm(&[&at[..], sides].concat()).json()["position"])
     };
     let [corrected, back, nominal] = [&better, &back, &bench.robot].map(|robot| position(robot));
     let apart =
@@ -93,8 +91,7 @@ fn the_corrected_arm_is_a_urdf_and_an_mjcf() {
     // Angles have nine digits in a robot file.
     assert!(apart(&corrected, &back) < 1e-8, "{corrected:?} {back:?}");
     assert!(apart(&corrected, &nominal) > 1e-4, "{corrected:?} {nominal:?}");
-    let spring = "stiffness=\"400000\"";
-    assert!(std::fs::read_to_string(&mjcf).expect("written").contains(spring));
+    assert!(read(&mjcf).contains("stiffness=\"400000\""));
 }
 
 #[test]
@@ -105,7 +102,7 @@ fn sessions_are_told_and_each_has_its_base() {
         bench.simulated(&format!("{seed}.csv"), &extra)
     });
     let rows = |path: &str, name: &str, head: bool| -> String {
-        let text = std::fs::read_to_string(path).expect("written");
+        let text = read(path);
         let lines = text.lines().filter(|line| !line.starts_with('#')).enumerate();
         let named = lines.filter(|(k, _)| head || *k > 0).map(|(k, line)| match k {
             0 => format!("session,{line}\n"),

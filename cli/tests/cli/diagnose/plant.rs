@@ -1,14 +1,13 @@
 //! Diagnoses of plants: arms with effects that only the test knows.
 
 use serde_json::Value;
-use stiffarm_codegen::robot::Robot;
 use stiffarm_gap::measurement::Kind;
 use stiffarm_gap::plant::design::{Design, Shape};
 use stiffarm_gap::plant::{Frames, Noise, Plant, Truth, csv};
 use stiffarm_kernels::generic::Arm;
 
 use super::line;
-use crate::support::{Folder, flat, json, number, stiffarm, text};
+use crate::support::{Folder, arm_of, flat, json, list, number, read, stiffarm};
 
 const ROBOT: &str = include_str!("shoulder.toml");
 
@@ -30,7 +29,7 @@ impl Bench {
     }
 
     pub fn path(&self, name: &str) -> String {
-        text(&self.folder.path(name))
+        self.folder.name(name)
     }
 
     /// By the command itself.
@@ -75,18 +74,16 @@ impl Bench {
 
 /// The arm of the robot file.
 fn arm() -> Arm {
-    let (robot, _) = Robot::from_toml(ROBOT, "arm").expect("a robot file");
-    stiffarm_gap::robot::arm(&robot).expect("with numbers")
+    arm_of(ROBOT)
 }
 
 /// `effect at place`, in order.
 fn findings(found: &Value) -> Vec<String> {
-    let all = found["findings"].as_array().expect("a list");
     let name = |f: &Value| {
         let word = |key: &str| f[key].as_str().expect("a word").to_owned();
         format!("{} at {}", word("effect"), word("place"))
     };
-    all.iter().map(name).collect()
+    list(&found["findings"]).iter().map(name).collect()
 }
 
 #[test]
@@ -124,7 +121,7 @@ fn what_is_found_adds_to_what_the_file_has() {
     let bench = Bench::new();
     // Joint 3 is three times as soft as its file says.
     let run = bench.measured("run.csv", &["joint_compliance@joint 3=6.667e-6"], 10, false);
-    let text = std::fs::read_to_string(&run).expect("there");
+    let text = read(&run);
     let lines = text.lines().enumerate();
     let longer = lines.map(|(k, l)| format!("{l},{}\n", if k == 0 { "temprature" } else { "21" }));
     let run = bench.folder.file("run.csv", longer.collect::<String>());
@@ -160,7 +157,7 @@ fn unknown_frames_are_fitted_along() {
     // Tool and base go into the robot file: nothing is unknown then.
     let better = bench.path("better.toml");
     bench.diagnose(&bench.robot, &run, &[&frames[..], &["--write-robot", &better]].concat());
-    let written = std::fs::read_to_string(&better).expect("written");
+    let written = read(&better);
     for frame in ["tool_frame", "base_frame"] {
         assert!(written.contains(&format!("#   {frame}, co-estimated: at [")), "{written}");
     }
@@ -175,7 +172,7 @@ fn the_corrected_robot_has_no_gap_left() {
     let better = bench.folder.file("better.toml", "before");
     let first = bench.diagnose(&bench.robot, &run, &["--write-robot", &better]);
     assert!(first.contains("Findings"), "{first}");
-    let written = std::fs::read_to_string(&better).expect("written");
+    let written = read(&better);
     assert!(written.starts_with("# Corrected by stiffarm "), "{written}");
     assert!(written.contains("#   joint_compliance at joint 2: compliance "), "{written}");
     assert!(written.contains(", in stiffness of joint 2\n"), "{written}");
@@ -196,7 +193,7 @@ fn the_corrected_robot_has_no_gap_left() {
 
     let twice = bench.path("twice.toml");
     bench.diagnose(&bench.robot, &run, &["--write-robot", &twice]);
-    assert_eq!(std::fs::read_to_string(&twice).expect("written"), written);
+    assert_eq!(read(&twice), written);
     assert_eq!(bench.diagnose(&bench.robot, &run, &["--write-robot", &twice, "--quiet"]), "");
     assert_eq!(bench.diagnose(&bench.robot, &run, &["--write-robot", "-"]), written);
 }
@@ -207,7 +204,7 @@ fn what_the_table_cannot_hold_is_an_effect() {
     let run = bench.measured("run.csv", &[SLACK], 5, false);
     let better = bench.path("better.toml");
     bench.diagnose(&bench.robot, &run, &["--write-robot", &better]);
-    let written = std::fs::read_to_string(&better).expect("written");
+    let written = read(&better);
     assert!(written.contains("#   backlash at joint 3: width "), "{written}");
     assert!(written.contains("], in an [[effect]]\n"), "{written}");
     // A diagnosis is a robot to every command: the one that it found.
