@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::support::{Folder, list, number, read, run, stiffarm};
+use crate::support::{Folder, has, list, number, read, run, stiffarm};
 
 const SOCKETS: &str = "
 [[point]]
@@ -36,12 +36,7 @@ fn a_plan_at_sockets_is_measured_and_diagnosed() {
     let screen = run(&format!("{postures} --bench {bench} --csv {plan}")).good();
     assert!(screen.contains("24 postures"), "{screen}");
     let written = read(&plan);
-    assert!(
-        written.contains("point,plane")
-            && written.contains(",left,")
-            && written.contains(",,table"),
-        "{written}"
-    );
+    has(&written, &["point,plane", ",left,", ",,table"]);
     let effect = "joint_offset@joint 3=3e-3";
     stiffarm(&["simulate", "irb120", &plan, "--bench", &bench, "--effect", effect, "--csv", &data])
         .good();

@@ -1,6 +1,6 @@
 //! What a robot file says beyond its table: every command that reads one honours it.
 
-use crate::support::{Folder, Table, list, number, numbers, read, run, stiffarm};
+use crate::support::{Folder, Table, has, list, number, numbers, read, run, stiffarm};
 
 const ARM: &str = "docs/workbench/arm.toml";
 
@@ -94,10 +94,7 @@ fn what_a_posture_does_not_decide_is_refused_until_it_is_said() {
         stiffarm(&["compensate", &robot, "--targets", &targets, "--out", "-", "--quiet"])
     };
     let err = compensate("", "").refused();
-    assert!(
-        err.contains("the backlash at joint 2: neither columns s1 … sn nor --sides say"),
-        "{err}"
-    );
+    has(&err, &["the backlash at joint 2: neither columns s1 … sn nor --sides say"]);
     // From where joint 2 comes to rest: half the play to either side.
     let [below, above] = ["1,", "-1,"].map(|side| {
         let out = compensate("s2,", side).good();

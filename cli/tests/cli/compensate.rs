@@ -58,8 +58,7 @@ fn what_is_not_reached_is_marked_and_kept() {
     let file = folder.file("path.csv", targets("far,9000,0,0,0,0,0\n"));
     let out = folder.name("out.csv");
     let arguments = ["compensate", "kuka_kr240", "--targets", &file, "--out", &out];
-    let run = stiffarm(&[&arguments[..], &["--starts", "4", "--wrench", LOAD]].concat());
-    assert_eq!(run.status, 1, "{}", run.err);
+    let run = stiffarm(&[&arguments[..], &["--starts", "4", "--wrench", LOAD]].concat()).ended(1);
     assert!(run.err.contains("1 of 7 targets are not reached"), "{}", run.err);
     assert!(run.out.contains("line 8: nearest") && run.out.contains("mm away"), "{}", run.out);
     let csv = read(&out);
@@ -67,8 +66,7 @@ fn what_is_not_reached_is_marked_and_kept() {
     let status = table.column("status");
     assert!(status[..6].iter().all(|s| *s == "reached") && status[6].starts_with("nearest"));
     assert!(table.numbers("error[mm]")[6] > 5000.0, "{csv}");
-    let crushed = stiffarm(&[&arguments[..], &["--wrench", "0,0,-1e12,0,0,0"]].concat());
-    assert_eq!(crushed.status, 1);
+    let crushed = stiffarm(&[&arguments[..], &["--wrench", "0,0,-1e12,0,0,0"]].concat()).ended(1);
     let csv = read(&out);
     let table = Table::of(&csv);
     assert!(table.column("status").iter().all(|s| *s == "unstable"), "{csv}");
@@ -95,8 +93,7 @@ fn rows_may_have_starts_and_loads_of_their_own() {
 fn a_rigid_arm_is_remarked_on() {
     let folder = Folder::new();
     let file = folder.file("path.csv", "x,y,z\n0.4,0.2,0.3\n");
-    let run = stiffarm(&["compensate", "ur5", "--targets", &file, "--out", "-"]);
-    assert_eq!(run.status, 0, "{}", run.err);
+    let run = stiffarm(&["compensate", "ur5", "--targets", &file, "--out", "-"]).ended(0);
     assert!(run.err.contains("nothing in the robot file gives way"), "{}", run.err);
 }
 
@@ -105,7 +102,7 @@ fn targets_in_millimetres_that_say_metres_are_doubted() {
     let folder = Folder::new();
     let file = folder.file("path.csv", targets("").replace("[mm]", ""));
     let run =
-        stiffarm(&["compensate", "kuka_kr240", "--targets", &file, "--starts", "1", "--out", "-"]);
-    assert_eq!(run.status, 1);
+        stiffarm(&["compensate", "kuka_kr240", "--targets", &file, "--starts", "1", "--out", "-"])
+            .ended(1);
     assert!(run.err.contains("is it millimetres? write x[mm]"), "{}", run.err);
 }

@@ -80,8 +80,7 @@ fn a_difference_is_shown_with_its_line() {
 
     let differs = |content: &str, message: &str| {
         let file = folder.file("other.rs", content);
-        let run = stiffarm(&["generate", "ur5", "--emit", "rust", "--check", &file]);
-        assert_eq!(run.status, 1);
+        let run = stiffarm(&["generate", "ur5", "--emit", "rust", "--check", &file]).ended(1);
         assert!(run.out.contains(message), "{}", run.out);
     };
     differs("", "found (the file has ended)");

@@ -3,7 +3,7 @@
 use nalgebra::Vector6;
 use serde_json::Value;
 
-use crate::support::{Folder, arm, flat, list, moved, number, read, stiffarm};
+use crate::support::{Folder, arm, flat, has, list, moved, number, read, stiffarm};
 
 /// Stiffnesses of the arm that is measured; the robot file has others.
 const TRUE: [f64; 6] = [3.0e6, 5.0e6, 4.2e6, 6.0e5, 5.0e5, 4.0e5];
@@ -46,8 +46,7 @@ fn a_row_with_a_hole_is_left_out_and_said() {
     let cut = lines[5].rfind(',').expect("cells");
     lines[5].truncate(cut + 1);
     let holed = folder.file("holed.csv", lines.join("\n") + "\n");
-    let run = stiffarm(&["identify", &robot, &holed]);
-    assert_eq!(run.status, 0, "{}", run.err);
+    let run = stiffarm(&["identify", &robot, &holed]).ended(0);
     assert!(run.err.contains("1 row of 60 left out"), "{}", run.err);
     assert!(run.err.contains("line 6, column 12 `dz[mm]`: found an empty cell"), "{}", run.err);
     let quiet = stiffarm(&["--quiet", "identify", &robot, &holed]);
@@ -78,9 +77,7 @@ fn stiffnesses_are_found_and_written() {
     assert!(sizes("held_out") < 7e-6 && sizes("before") > 2e-5, "{found}");
     let out = folder.name("stiff.toml");
     let screen = stiffarm(&["identify", &robot, &data, "--write-robot", &out]).good();
-    for expected in ["joint 1", "N·m/rad", "with the identified springs, held out", "rms mm"] {
-        assert!(screen.contains(expected), "no `{expected}` in\n{screen}");
-    }
+    has(&screen, &["joint 1", "N·m/rad", "with the identified springs, held out", "rms mm"]);
     let again = json(&[&out, &data]);
     let rms = number(&again["gap"]["before"]["position_rms"]);
     assert!(rms <= sizes("held_out"), "{rms}");
@@ -92,16 +89,14 @@ fn what_a_hanging_weight_does_not_show_is_said() {
     let folder = Folder::new();
     let (robot, data) = run(&folder, 8, &LOADS[..1]);
     let screen = stiffarm(&["identify", &robot, &data]).good();
-    assert!(screen.contains("has no effect on the rows"), "{screen}");
-    assert!(screen.contains("joint 1: to determine it, pull along ["), "{screen}");
+    has(&screen, &["has no effect on the rows", "joint 1: to determine it, pull along ["]);
     let held = &json(&[&robot, &data])["parameters"][0];
     assert_eq!(held["status"], "held");
     assert!(held["ci95"].is_null() && held["stiffness_ci95"].is_null(), "{held}");
     let out = folder.name("stiff.toml");
     stiffarm(&["--quiet", "identify", &robot, &data, "--write-robot", &out]).good();
     let toml = read(&out);
-    assert!(toml.contains("# joint 1: not identified, as it was."), "{toml}");
-    assert!(toml.contains("stiffness = 3800000.0"), "{toml}");
+    has(&toml, &["# joint 1: not identified, as it was.", "stiffness = 3800000.0"]);
 }
 
 #[test]
@@ -123,8 +118,7 @@ fn the_base_can_be_asked_for() {
     let folder = Folder::new();
     let (robot, data) = run(&folder, 12, &LOADS);
     let screen = stiffarm(&["identify", &robot, &data, "--base"]).good();
-    assert!(screen.contains("base along x") && screen.contains("N/µm"), "{screen}");
-    assert!(screen.contains("not distinguishable from joint 1"), "{screen}");
+    has(&screen, &["base along x", "N/µm", "not distinguishable from joint 1"]);
 }
 
 /// The written robot leaves nothing of what its foundation did.

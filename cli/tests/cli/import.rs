@@ -1,6 +1,6 @@
 //! `stiffarm import`.
 
-use crate::support::{Folder, numbers, read, stiffarm};
+use crate::support::{Folder, has, numbers, read, stiffarm};
 
 #[test]
 fn the_robot_file_can_be_used_at_once() {
@@ -27,8 +27,7 @@ fn the_robot_file_can_be_used_at_once() {
 #[test]
 fn what_a_user_must_know_is_said_and_written() {
     let arguments = ["import", "tests/data/urdf/oblique.urdf", "--tip", "needle"];
-    let run = stiffarm(&arguments);
-    assert_eq!(run.status, 0, "{}", run.err);
+    let run = stiffarm(&arguments).ended(0);
     for said in [
         "`[base]` says where axis 1 stands in link `floor`",
         "left out: link `grip_left` and what hangs on it, 0.1 kg",
@@ -80,9 +79,5 @@ fn a_urdf_is_a_robot() {
     let eval = |robot: &str| stiffarm(&["eval", robot, "--q", "0.3,-0.2", "--json", "-"]);
     let run = eval(&file);
     assert_eq!(run.out, eval(&toml).out, "{}", run.err);
-    assert!(
-        run.err.contains("read as pi/2") && run.err.contains("as in the URDF to"),
-        "{}",
-        run.err
-    );
+    has(&run.err, &["read as pi/2", "as in the URDF to"]);
 }

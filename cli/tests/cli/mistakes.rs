@@ -1,6 +1,6 @@
 //! Mistakes of a file as a user meets them: named first, mended in the robot file, or given up.
 
-use crate::support::{Folder, Table, flat, read, run};
+use crate::support::{Folder, Table, flat, has, read, run};
 
 /// A UR5 with a tool, measured where nobody knows, by the command itself; its measurements as header and rows.
 fn campaign(folder: &Folder) -> (String, Vec<Vec<String>>) {
@@ -27,8 +27,7 @@ fn file(folder: &Folder, name: &str, header: &str, rows: &[Vec<String>]) -> Stri
 
 /// What a run prints that may have doubts beside it.
 fn good(line: &str) -> String {
-    let ended = run(line);
-    assert_eq!(ended.status, 0, "{}", ended.err);
+    let ended = run(line).ended(0);
     // Lines are broken where the screen ends.
     flat(&ended.out)
 }
@@ -48,8 +47,7 @@ fn a_coupling_is_named_and_written() {
     let [json, robot] = ["found.json", "better.toml"].map(|name| folder.name(name));
     let outputs = format!("--json {json} --write-robot {robot}");
     let shown = good(&format!("diagnose ur5 {data} {FRAMES} {outputs}"));
-    assert!(shown.contains("Joint 3's reading counts joint 2's angle"), "{shown}");
-    assert!(shown.contains("instead of"), "{shown}");
+    has(&shown, &["Joint 3's reading counts joint 2's angle", "instead of"]);
     let told = crate::support::json(&read(&json));
     let wrong = &told["mistaken"]["mistakes"][0];
     assert_eq!(
@@ -117,8 +115,7 @@ fn rows_of_other_poses_are_no_arm() {
         measured.iter().for_each(|k| row[*k].clone_from(&was[(number + 7) % was.len()][*k]));
     }
     let data = file(&folder, "other.csv", &header, &rows);
-    let ended = run(&format!("diagnose ur5 {data} {FRAMES}"));
-    assert_eq!(ended.status, 3, "{}", ended.err);
+    let ended = run(&format!("diagnose ur5 {data} {FRAMES}")).ended(3);
     let out = flat(&ended.out);
     assert!(out.contains("Nothing explains the position error"), "{out}");
 }

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::support::{Folder, Table, list, number, read, run, stiffarm};
+use crate::support::{Folder, Table, has, list, number, read, run, stiffarm};
 
 /// An elbow above an upright axis, with rotors and friction.
 pub const ELBOW: &str = include_str!("../../../tests/data/elbow.toml");
@@ -18,8 +18,7 @@ fn a_simulated_log_is_diagnosed() {
     };
     moved(&log);
     let written = read(&log);
-    assert!(written.contains("# effect coulomb_friction@joint 2:coulomb=3e0 (SI)"), "{written}");
-    assert!(written.contains("# torque_side = motor"), "{written}");
+    has(&written, &["# effect coulomb_friction@joint 2:coulomb=3e0 (SI)", "# torque_side = motor"]);
     let found = stiffarm(&["diagnose", &robot, &log, "--quiet"]).good();
     assert!(found.contains("coulomb friction at joint 2"), "{found}");
     // The same bytes again; without the effect's name where it is withheld.
@@ -62,8 +61,7 @@ fn a_chosen_motion_is_what_simulate_takes() {
     let commands = folder.name("commands.csv");
     let plan = "--for motion --period 8s --harmonics 5 --max-rate 1.2 --max-acceleration 4";
     let screen = run(&format!("poses {robot} {plan} --csv {commands}")).good();
-    assert!(screen.contains("coulomb friction at joint 3") && screen.contains(" ×"), "{screen}");
-    assert!(screen.contains("rotor inertia at joint 1"), "{screen}");
+    has(&screen, &["coulomb friction at joint 3", " ×", "rotor inertia at joint 1"]);
     let written = read(&commands);
     let table = Table::of(&written);
     let rows = table.all();

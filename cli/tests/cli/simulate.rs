@@ -1,6 +1,6 @@
 //! `stiffarm simulate`.
 
-use crate::support::{Folder, Table, number, stiffarm};
+use crate::support::{Folder, Table, has, number, stiffarm};
 
 const SPRING: &str = "joint_compliance@joint 2=3e-6 rad/(N·m)";
 
@@ -111,23 +111,14 @@ fn sockets_are_simulated_and_diagnosed() {
     let file = folder.file("sockets.csv", &csv);
     let out = stiffarm(&["diagnose", "ur5", &file]).good();
     assert!(out.contains("108 measurements of points at "), "{out}");
-    assert!(
-        out.contains("joint compliance at joint 2") && out.contains("distance from the point"),
-        "{out}"
-    );
+    has(&out, &["joint compliance at joint 2", "distance from the point"]);
     let pair = "[[pair]]\npoints = [\"socket 0.1\", \"socket 0.2\"]\ndistance = \"1 m\"\nsigma = \"1 m\"\n";
     let bench = folder.file("bench.toml", pair);
     let out = stiffarm(&["diagnose", "ur5", &file, "--bench", &bench]).good();
-    assert!(
-        out.contains("socket 0.1 and socket 0.2") && out.contains("known: 1000.00 ± 1000.00 mm"),
-        "{out}"
-    );
+    has(&out, &["socket 0.1 and socket 0.2", "known: 1000.00 ± 1000.00 mm"]);
     let plates = simulated(&["--measure", "plane", "--poses", "36", "--effect", SPRING]);
     let out = stiffarm(&["diagnose", "ur5", &folder.file("plates.csv", &plates)]).good();
-    assert!(
-        out.contains("joint compliance at joint 2") && out.contains("error of the reading"),
-        "{out}"
-    );
+    has(&out, &["joint compliance at joint 2", "error of the reading"]);
     let again = stiffarm(&["simulate", "ur5", &file, "--csv", "-", "--effect", SPRING]).good();
     assert_eq!(header(&again), header(&csv));
 }

@@ -33,6 +33,13 @@ impl Run {
         json(&self.good())
     }
 
+    /// A run that must have ended so.
+    #[track_caller]
+    pub fn ended(self, status: i32) -> Run {
+        assert_eq!(self.status, status, "{}", self.err);
+        self
+    }
+
     /// The standard error of a run that must have refused its work and printed nothing.
     #[track_caller]
     pub fn refused(self) -> String {
@@ -120,6 +127,14 @@ pub fn names(folder: &Path) -> Vec<String> {
     let mut names: Vec<String> = entries.map(name).collect();
     names.sort();
     names
+}
+
+/// Every one of these parts must stand in a text.
+#[track_caller]
+pub fn has(text: &str, parts: &[&str]) {
+    for part in parts {
+        assert!(text.contains(part), "no `{part}` in\n{text}");
+    }
 }
 
 /// A path as an argument.

@@ -1,7 +1,7 @@
 //! What is made of a log's diagnosis: the robot file, simulators' files, the check of another log, the page.
 
 use super::{HEADER, PENDULUM, rows};
-use crate::support::{Folder, arm_of, json, list, number, read, run, stiffarm};
+use crate::support::{Folder, arm_of, has, json, list, number, read, run, stiffarm};
 
 /// The pendulum's log, the second half of it apart; both say where torques are measured.
 fn logs(folder: &Folder) -> [String; 2] {
@@ -54,8 +54,7 @@ fn simulators_get_what_they_hold() {
     let [mjcf, urdf] = ["better.xml", "better.urdf"].map(|name| folder.name(name));
     let only = "coulomb_friction,viscous_friction,torque_offset";
     let found = ["diagnose", &robot, &log, "--effects", only, "--write-mjcf", &mjcf];
-    let run = stiffarm(&[&found[..], &["--write-urdf", &urdf, "--quiet"]].concat());
-    assert_eq!(run.status, 0, "{}", run.err);
+    let run = stiffarm(&[&found[..], &["--write-urdf", &urdf, "--quiet"]].concat()).ended(0);
     for (file, names) in
         [(&mjcf, ["frictionloss=\"", "damping=\""]), (&urdf, ["friction=\"", "damping=\""])]
     {
@@ -129,14 +128,15 @@ fn a_page_holds_everything() {
     let page = folder.name("log.html");
     stiffarm(&["diagnose", &robot, &log, "--check", &other, "--report", &page, "--quiet"]).good();
     let page = read(&page);
-    for part in [
-        "What each finding contributes",
-        "Torque against time",
-        "Friction against speed",
-        "with nothing fitted",
-    ] {
-        assert!(page.contains(part), "{part}");
-    }
+    has(
+        &page,
+        &[
+            "What each finding contributes",
+            "Torque against time",
+            "Friction against speed",
+            "with nothing fitted",
+        ],
+    );
     // Nothing of it stands elsewhere.
     for away in ["http://", "https://", "src=", "@import"] {
         assert!(!page.contains(away), "{away}");
