@@ -66,7 +66,7 @@ fn what_is_not_reached_is_marked_and_kept() {
     let status = table.column("status");
     assert!(status[..6].iter().all(|s| *s == "reached") && status[6].starts_with("nearest"));
     assert!(table.numbers("error[mm]")[6] > 5000.0, "{csv}");
-    let crushed = stiffarm(&[&arguments[..], &["--wrench", "0,0,-1e12,0,0,0"]].concat()).ended(1);
+    stiffarm(&[&arguments[..], &["--wrench", "0,0,-1e12,0,0,0"]].concat()).ended(1);
     let csv = read(&out);
     let table = Table::of(&csv);
     assert!(table.column("status").iter().all(|s| *s == "unstable"), "{csv}");

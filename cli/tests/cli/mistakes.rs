@@ -14,7 +14,6 @@ fn campaign(folder: &Folder) -> (String, Vec<Vec<String>>) {
     (names.join(","), rows.into_iter().map(owned).collect())
 }
 
-/// The column of that name.
 fn column(header: &str, name: &str) -> usize {
     let is = |cell: &str| cell.split('[').next() == Some(name);
     header.split(',').position(is).unwrap_or_else(|| panic!("no {name} in {header}"))

@@ -83,7 +83,6 @@ fn a_plan_is_simulated_and_withheld_before_it_is_measured() {
     assert!(found.contains("15 measurements at 15 poses"), "{found}");
 }
 
-/// What is put in is what the diagnosis finds.
 #[test]
 fn the_diagnosis_finds_what_was_put_in() {
     let folder = Folder::new();

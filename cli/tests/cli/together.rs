@@ -26,7 +26,7 @@ fn numbers(spring: &Value) -> [f64; 3] {
 }
 
 /// The compliance of joint 2 in a robot file, and the droop of its servo there.
-fn written(path: &str) -> [f64; 2] {
+fn told_by(path: &str) -> [f64; 2] {
     let text = read(path);
     let (robot, _) = Robot::from_toml(&text, path).expect("a robot");
     let droop = robot.effects.iter().find(|e| e.id.value == "servo_droop").expect("written");
@@ -63,7 +63,7 @@ fn one_spring_is_told_by_both_better_than_by_either() {
     let found_in_log = list(&found["log"]["findings"]);
     assert!(found_in_log.iter().any(|f| f["effect"] == "servo_droop"), "{found_in_log:#?}");
     // One file has both, each kind of data as it sees it.
-    let springs = written(&better);
+    let springs = told_by(&better);
     assert!(springs.iter().all(|is| (is / both[0] - 1.0).abs() < 1e-8), "{springs:?} {both:?}");
     // And is known to both: neither finds it again.
     let again = run(&format!("diagnose {better} {campaign} {log} --json -")).json();
@@ -79,7 +79,7 @@ fn springs_that_differ_are_said_to() {
     let better = folder.name("better.toml");
     let out = run(&format!("diagnose {robot} {campaign} {log} --write-robot {better}")).good();
     has(&out, &["they differ", "At joint 2 the log shows more compliance than the campaign"]);
-    let [spring, droop] = written(&better);
+    let [spring, droop] = told_by(&better);
     assert!((spring / GIVES - 1.0).abs() < 0.1 && (droop / (2.0 * GIVES) - 1.0).abs() < 0.1);
 }
 

@@ -77,7 +77,6 @@ impl Separator {
     }
 }
 
-/// One record.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Record {
     /// The line on which it begins, from 1.
@@ -96,7 +95,6 @@ impl Record {
         Some(self.text[start..end].trim_ascii())
     }
 
-    /// All cells.
     pub(crate) fn cells(&self) -> impl ExactSizeIterator<Item = &[u8]> + Clone {
         (0..self.cells).map(|k| self.cell(k).unwrap_or_default())
     }

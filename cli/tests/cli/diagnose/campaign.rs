@@ -16,8 +16,7 @@ fn diagnosed(bench: &Bench, run: &str, extra: &[&str]) -> Run {
 fn what_is_not_accepted_is_an_exit_status() {
     let bench = Bench::new();
     let run = bench.simulated("run.csv", &["--effect", SPRING]);
-    let good =
-        diagnosed(&bench, &run, &["--accept", "0.2mm", "--json", &bench.path("a.json")]).ended(0);
+    diagnosed(&bench, &run, &["--accept", "0.2mm", "--json", &bench.path("a.json")]).ended(0);
     // Three coordinates of 30 µm noise are longer than 10 µm in all but few rows.
     let bad = diagnosed(&bench, &run, &["--accept", "10um"]).ended(1);
     assert!(flat(&bad.out).contains("Not accepted: with the findings 95 % of the held-out rows"));

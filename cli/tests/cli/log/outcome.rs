@@ -54,7 +54,7 @@ fn simulators_get_what_they_hold() {
     let [mjcf, urdf] = ["better.xml", "better.urdf"].map(|name| folder.name(name));
     let only = "coulomb_friction,viscous_friction,torque_offset";
     let found = ["diagnose", &robot, &log, "--effects", only, "--write-mjcf", &mjcf];
-    let run = stiffarm(&[&found[..], &["--write-urdf", &urdf, "--quiet"]].concat()).ended(0);
+    stiffarm(&[&found[..], &["--write-urdf", &urdf, "--quiet"]].concat()).ended(0);
     for (file, names) in
         [(&mjcf, ["frictionloss=\"", "damping=\""]), (&urdf, ["friction=\"", "damping=\""])]
     {

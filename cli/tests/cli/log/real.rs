@@ -16,7 +16,6 @@ fn diagnosed(arguments: &[&str]) -> Value {
     stiffarm(&[&["diagnose"], arguments, &["--quiet", "--json", "-"]].concat()).json()
 }
 
-/// The numbers of an effect at a place.
 fn numbers(found: &Value, effect: &str, place: &str) -> Vec<f64> {
     let mut findings = list(&found["findings"]).iter();
     let finding = findings.find(|f| f["effect"] == effect && f["place"] == place);

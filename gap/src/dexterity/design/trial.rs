@@ -17,7 +17,6 @@ use crate::whole::Whole;
 /// along.
 pub(super) struct LineUp {
     effects: Vec<(&'static dyn Effect, Spot)>,
-    /// The numbers of each.
     pub(super) numbers: Vec<Vec<Number>>,
 }
 
