@@ -49,6 +49,7 @@ pub fn gathered<K: PartialEq, V>(pairs: impl Iterator<Item = (K, V)>) -> Vec<(K,
     all
 }
 
+/// A part in per cent.
 pub fn percent(part: f64) -> String {
     format!("{} %", fixed(100.0 * part, 0))
 }
