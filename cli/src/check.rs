@@ -67,10 +67,6 @@ fn usual(joints: usize) -> usize {
     (postures * most.pow(3) / joints.max(most).pow(3)).max(LEAST)
 }
 
-/// Runs the command.
-///
-/// # Errors
-/// [`Failure`]: the robot, or an output that cannot be written.
 pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     let checked = match &args.robot {
         Some(robot) => vec![check(robot.load(host)?, args, host)?],

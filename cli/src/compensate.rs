@@ -86,10 +86,6 @@ pub struct Args {
     out: Target,
 }
 
-/// Runs the command.
-///
-/// # Errors
-/// [`Failure`]: the robot, the targets, the options, or an output that cannot be written.
 pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     let (length, angle) = (Dimension::Length, Dimension::Angle);
     let search = Search {

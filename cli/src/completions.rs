@@ -21,10 +21,6 @@ pub struct Args {
     shell: Shell,
 }
 
-/// Runs the command.
-///
-/// # Errors
-/// [`Failure`] if standard output cannot be written to.
 pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     let mut text = Vec::new();
     generate(args.shell, &mut Cli::command(), "stiffarm", &mut text);

@@ -61,10 +61,6 @@ enum Format {
     JointLimits,
 }
 
-/// Runs the command.
-///
-/// # Errors
-/// [`Failure`]: the robots, the controller's file, the options, or an output that cannot be written.
 pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     args.go_together()?;
     let source = args.robot.load(host)?;

@@ -114,10 +114,14 @@ pub struct Catalogues {
 /// What a diagnosis found, of whatever data.
 pub trait Found: Send + Sync {
     /// What was measured at rest; `None` of a log alone.
-    fn campaign(&self) -> Option<&Campaign>;
+    fn campaign(&self) -> Option<&Campaign> {
+        None
+    }
 
     /// What was logged in motion; `None` of measurements alone.
-    fn motion(&self) -> Option<&Motion>;
+    fn motion(&self) -> Option<&Motion> {
+        None
+    }
 
     /// The diagnosis in JSON.
     ///
@@ -194,10 +198,6 @@ pub trait Found: Send + Sync {
     }
 }
 
-/// Runs the command.
-///
-/// # Errors
-/// [`Failure`]: the robot, the data, the options, or an output that cannot be written.
 pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     let found = diagnose(&args.robot, &args.data, &args.settings, Catalogues::default(), host)?;
     host.put(&args.json, || found.json())?;

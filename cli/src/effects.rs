@@ -64,10 +64,6 @@ struct Number {
     units: Vec<&'static str>,
 }
 
-/// Runs the command.
-///
-/// # Errors
-/// [`Failure`]: an effect that there is not, or an output that cannot be written.
 pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     let mut arm = RobotArgs::named(SAMPLE).load(&host.quiet(true))?.arm()?;
     arm.joints.iter_mut().for_each(|joint| joint.drive.gear = GEAR);

@@ -146,10 +146,6 @@ fn told(Refused { message, help }: Refused) -> String {
     format!("{message}; {help}")
 }
 
-/// Runs the command.
-///
-/// # Errors
-/// [`Failure`]: the robot, options that do not go together, a file that cannot be read or written.
 pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     args.go_together()?;
     let mut source = source::open(&args.robot, host)?;

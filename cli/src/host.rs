@@ -123,9 +123,6 @@ impl Host {
     }
 
     /// The bytes of a file, of the program's or on disk.
-    ///
-    /// # Errors
-    /// [`Failure`]: it cannot be read.
     pub(crate) fn read(&self, path: &Path) -> Result<Vec<u8>, Failure> {
         match self.held(path) {
             Some(bytes) => Ok(bytes.clone()),
@@ -146,9 +143,6 @@ impl Host {
     }
 
     /// A file of a table: one on disk is gone through where it is, and not held.
-    ///
-    /// # Errors
-    /// [`Failure`]: it cannot be read.
     pub(crate) fn sheet(&self, path: &Path) -> Result<Sheet, Failure> {
         Ok(match self.is_on_disk(path) {
             true => Sheet::on_disk(path),
@@ -184,9 +178,6 @@ impl Host {
     }
 
     /// Prints to standard output.
-    ///
-    /// # Errors
-    /// [`Failure`] if that cannot be written to.
     pub(crate) fn print(&self, text: &str) -> Result<(), Failure> {
         let Some(program) = &self.program else { return output::print(text) };
         program.write("-", text);
@@ -194,9 +185,6 @@ impl Host {
     }
 
     /// Writes the whole text there.
-    ///
-    /// # Errors
-    /// [`Failure`] says where and why; a file is then as it was.
     pub(crate) fn write(&self, target: &Target, text: &str) -> Result<(), Failure> {
         match (target, &self.program) {
             (Target::Stdout, _) => return self.print(text),
@@ -212,9 +200,6 @@ impl Host {
     }
 
     /// Writes there what `write` writes bit by bit; where that says that it is nothing, a file is as it was.
-    ///
-    /// # Errors
-    /// As [`Host::write`].
     pub(crate) fn stream(
         &self,
         target: &Target,
@@ -235,9 +220,6 @@ impl Host {
     }
 
     /// Writes what `text` is to where it was asked for, if it was.
-    ///
-    /// # Errors
-    /// [`Failure`] of the text, or as [`Host::write`].
     pub(crate) fn put(
         &self,
         target: &Option<Target>,

@@ -80,10 +80,6 @@ pub struct Args {
     report: Option<Target>,
 }
 
-/// Runs the command.
-///
-/// # Errors
-/// [`Failure`]: the robot, the data, the options, or an output that cannot be written.
 pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     let question = args.question()?;
     let source = args.robot.load(host)?;

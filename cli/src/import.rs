@@ -52,10 +52,6 @@ const POSTURES: usize = 100;
 /// More than this, m and rad, is no rounding.
 const AGREES: f64 = 1e-9;
 
-/// Runs the command.
-///
-/// # Errors
-/// [`Failure`]: what is no URDF, or no serial chain; an output that cannot be written.
 pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     let file = args.urdf.display().to_string();
     let source = text(&args.urdf, host)?;
@@ -68,9 +64,6 @@ pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
 
 /// The text of a robot file from that of a URDF, from its link `base` to its link `tip`, and what a user must
 /// know of it.
-///
-/// # Errors
-/// [`Failure`]: what is no URDF, or no serial chain.
 pub fn imported(
     file: &str,
     source: &str,

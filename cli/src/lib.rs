@@ -83,27 +83,42 @@ struct Cli {
     quiet: bool,
 }
 
-#[derive(Subcommand)]
-enum Command {
-    Eval(eval::Args),
-    Check(check::Args),
-    Robots(robots::Args),
-    Import(import::Args),
-    Generate(generate::Args),
-    Map(map::Args),
-    Measurements(measurements::Args),
-    Poses(poses::Args),
-    Identify(identify::Args),
-    Diagnose(Box<diagnose::Args>),
-    Effects(effects::Args),
-    Predict(predict::Args),
-    Simulate(simulate::Args),
-    Withhold(withhold::Args),
-    Compensate(compensate::Args),
-    Controller(controller::Args),
-    Papers(papers::Args),
-    Completions(completions::Args),
-    Man(man::Args),
+/// Each command has a module, in which `Args` is what it takes and `run` what it does.
+macro_rules! commands {
+    ($($command:ident in $module:ident,)*) => {
+        #[derive(Subcommand)]
+        enum Command {
+            $($command(Box<$module::Args>),)*
+        }
+
+        fn execute(command: Command, host: &Host) -> Result<Verdict, Failure> {
+            match command {
+                $(Command::$command(args) => $module::run(&args, host),)*
+            }
+        }
+    };
+}
+
+commands! {
+    Eval in eval,
+    Check in check,
+    Robots in robots,
+    Import in import,
+    Generate in generate,
+    Map in map,
+    Measurements in measurements,
+    Poses in poses,
+    Identify in identify,
+    Diagnose in diagnose,
+    Effects in effects,
+    Predict in predict,
+    Simulate in simulate,
+    Withhold in withhold,
+    Compensate in compensate,
+    Controller in controller,
+    Papers in papers,
+    Completions in completions,
+    Man in man,
 }
 
 /// How a command that could do its work ended.
@@ -203,28 +218,4 @@ fn apart(given: &ArgMatches) -> Result<(), Failure> {
     let chosen =
         given.subcommand().and_then(|(name, given)| Some((all.find_subcommand(name)?, given)));
     chosen.map_or(Ok(()), |(command, given)| output::apart(command, given))
-}
-
-fn execute(command: Command, host: &Host) -> Result<Verdict, Failure> {
-    match command {
-        Command::Eval(args) => eval::run(&args, host),
-        Command::Check(args) => check::run(&args, host),
-        Command::Robots(args) => robots::run(&args, host),
-        Command::Import(args) => import::run(&args, host),
-        Command::Generate(args) => generate::run(&args, host),
-        Command::Map(args) => map::run(&args, host),
-        Command::Measurements(args) => measurements::run(&args, host),
-        Command::Poses(args) => poses::run(&args, host),
-        Command::Identify(args) => identify::run(&args, host),
-        Command::Diagnose(args) => diagnose::run(&args, host),
-        Command::Effects(args) => effects::run(&args, host),
-        Command::Predict(args) => predict::run(&args, host),
-        Command::Simulate(args) => simulate::run(&args, host),
-        Command::Withhold(args) => withhold::run(&args, host),
-        Command::Compensate(args) => compensate::run(&args, host),
-        Command::Controller(args) => controller::run(&args, host),
-        Command::Papers(args) => papers::run(&args, host),
-        Command::Completions(args) => completions::run(&args, host),
-        Command::Man(args) => man::run(&args, host),
-    }
 }

@@ -24,10 +24,6 @@ pub struct Args {
     out: Option<PathBuf>,
 }
 
-/// Runs the command.
-///
-/// # Errors
-/// [`Failure`] if a page cannot be written.
 pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     let mut whole = Cli::command();
     whole.build();

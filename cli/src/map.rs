@@ -82,10 +82,6 @@ pub struct Args {
     csv: Option<Target>,
 }
 
-/// Runs the command.
-///
-/// # Errors
-/// [`Failure`]: the robot, the options, or an output that cannot be written.
 pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     let source = args.robot.load(host)?;
     let table = source.arm()?;

@@ -60,10 +60,6 @@ pub struct Args {
     csv: Target,
 }
 
-/// Runs the command.
-///
-/// # Errors
-/// [`Failure`]: the table, the map, or an output that cannot be written.
 pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     let mut map = match &args.map {
         None => Map::default(),

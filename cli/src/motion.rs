@@ -110,10 +110,6 @@ fn part(text: &str) -> Result<f64, String> {
 }
 
 impl MotionArgs {
-    /// The limits of an arm.
-    ///
-    /// # Errors
-    /// [`Failure`]: limits between which nothing moves.
     pub fn limits(&self, arm: &Arm) -> Result<Limits, Failure> {
         Ok(Limits::of(arm, &self.max_rate, &self.max_acceleration)?)
     }
@@ -131,9 +127,6 @@ impl MotionArgs {
 }
 
 /// The arm that is moved.
-///
-/// # Errors
-/// [`Failure`]: the robot, or effects of its file, which say how it yields at rest.
 pub fn arm(source: &Source, command: &str) -> Result<Arm, Failure> {
     let Some(known) = source.at_rest_alone().next() else { return source.arm_at_its_base() };
     Err(Failure::with_help(
@@ -152,9 +145,6 @@ pub struct Courses(Vec<Box<dyn Course>>);
 
 impl Courses {
     /// Those of a file, else drawn.
-    ///
-    /// # Errors
-    /// [`Failure`]: a file that is no log, or limits between which nothing moves.
     pub fn of(
         (file, host): (Option<&PathBuf>, &Host),
         source: &Source,
@@ -206,7 +196,6 @@ impl Courses {
 }
 
 impl RecordArgs {
-    /// What is logged.
     pub fn logged(&self) -> Logged {
         match self.logged {
             RowsArg::Motor => Logged::Torque(Side::Motor),
@@ -218,9 +207,6 @@ impl RecordArgs {
     }
 
     /// How well.
-    ///
-    /// # Errors
-    /// [`Failure`]: a step or a reading that is none.
     pub fn recording(&self) -> Result<Recording, Failure> {
         let usual = if self.logged == RowsArg::Position { 5e-4 } else { 0.0 };
         let reading = self.noise_reading.unwrap_or(usual);

@@ -56,9 +56,6 @@ enum Figure {
 }
 
 /// Says how to get the command.
-///
-/// # Errors
-/// [`Failure`], always: the program was built without the papers.
 #[cfg(not(feature = "papers"))]
 pub fn run(_: &Args, _: &Host) -> Result<Verdict, Failure> {
     Err(Failure::new(

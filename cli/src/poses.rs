@@ -110,10 +110,6 @@ pub enum For {
     Motion,
 }
 
-/// Runs the command.
-///
-/// # Errors
-/// [`Failure`]: the robot, the options, or an output that cannot be written.
 pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     let source = args.robot.load(host)?;
     if args.purpose == For::Motion {

@@ -64,11 +64,6 @@ struct Written<'a> {
     gap: Option<Statistics>,
 }
 
-/// Runs the command.
-///
-/// # Errors
-/// [`Failure`]: the robot, the data, a load that the arm does not bear, or an output that cannot be
-/// written.
 pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     let source = args.robot.load(host)?;
     let arm = source.arm()?;

@@ -39,10 +39,6 @@ struct Entry {
     parameters: Vec<String>,
 }
 
-/// Runs the command.
-///
-/// # Errors
-/// [`Failure`] if the list cannot be written.
 pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     if args.schema {
         host.print(&Robot::json_schema())?;

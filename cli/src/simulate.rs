@@ -151,11 +151,6 @@ enum MeasureArg {
 /// Most rows that are drawn.
 const MOST_ROWS: usize = 1_000_000;
 
-/// Runs the command.
-///
-/// # Errors
-/// [`Failure`]: the robot, the data, an effect that this arm cannot have, a load that it cannot
-/// carry, or an output that cannot be written.
 pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     let source = args.robot.load(host)?;
     if let Some(target) = &args.log {
@@ -226,9 +221,6 @@ impl Args {
 
 impl ExperimentArgs {
     /// The rows that are to be measured: of the file, or drawn.
-    ///
-    /// # Errors
-    /// [`Failure`]: the file's mistakes, or numbers that make no design.
     pub fn rows(
         &self,
         file: Option<&PathBuf>,
@@ -269,9 +261,6 @@ impl ExperimentArgs {
     }
 
     /// Four sessions of the same design at other poses.
-    ///
-    /// # Errors
-    /// [`Failure`]: numbers that make no design.
     pub fn other_sessions(
         &self,
         source: &Source,
@@ -326,9 +315,6 @@ impl ExperimentArgs {
     }
 
     /// The noise of the instrument that measures a design.
-    ///
-    /// # Errors
-    /// [`Failure`] for what is no length or angle, or below zero.
     pub fn noise(&self, design: &Measurements) -> Result<Noise, Failure> {
         let read = |option: &str, text: &str, dimension: Dimension| {
             let bare = quantity::read(text, None).is_some();

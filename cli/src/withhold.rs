@@ -88,11 +88,6 @@ const FULL: usize = 500;
 /// Cases that are worked on at once.
 const THREADS: usize = 2;
 
-/// Runs the command.
-///
-/// # Errors
-/// [`Failure`]: the robot, the data, the options, a load that the arm cannot carry, or an output
-/// that cannot be written.
 pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     let (report, position_log) =
         if args.motion { motion::report(args, host)? } else { (report(args, host)?, false) };

@@ -7,24 +7,9 @@ use stiffarm_kernels::generic::{Arm, Beam, Convention, Joint};
 
 use crate::effects::{Catalogue, Known, Spot};
 use crate::measurement::{Kind, Layout, Measurements, Row};
-use crate::observe::Bench;
 
 fn joint(a: f64, alpha: f64, d: f64) -> Joint {
-    Joint {
-        motion: Motion::Revolute,
-        theta: 0.0,
-        d,
-        a,
-        alpha,
-        beta: 0.0,
-        compliance: 0.0,
-        mass: 12.0,
-        com: Vector3::new(-a / 2.0, 0.0, 0.02),
-        inertia: Default::default(),
-        drive: Default::default(),
-        limits: None,
-        beam: None,
-    }
+    Joint { d, a, alpha, mass: 12.0, com: Vector3::new(-a / 2.0, 0.0, 0.02), ..Joint::default() }
 }
 
 /// An elbow of three rigid joints with weights.
@@ -34,10 +19,9 @@ pub(crate) fn rigid() -> Arm {
         name: "elbow".to_owned(),
         convention: Convention::Standard,
         joints: vec![joint(0.1, half, 0.4), joint(0.7, 0.0, 0.0), joint(0.6, 0.0, 0.05)],
-        base: Isometry3::identity(),
         tool: Isometry3::translation(0.1, 0.0, 0.05),
-        tool_rotation_vector: Vector3::zeros(),
         gravity: Vector3::new(0.0, 0.0, -9.80665),
+        ..Arm::default()
     }
 }
 
@@ -91,13 +75,7 @@ pub(crate) fn table(rows: Vec<Row>, kind: Kind) -> Measurements {
 
 /// A robot of revolute joints without markers.
 pub(crate) fn layout(joints: usize) -> Layout {
-    Layout {
-        motions: vec![Motion::Revolute; joints],
-        readings: true,
-        markers: Vec::new(),
-        payloads: None,
-        bench: Bench::NONE,
-    }
+    Layout::new(vec![Motion::Revolute; joints])
 }
 
 /// An effect of a robot file.
@@ -105,4 +83,26 @@ pub(crate) fn known(id: &str, place: &str, form: usize, values: &[f64]) -> Known
     let effect = Catalogue::default().named(id).unwrap();
     let spot = Spot { place: place.parse().unwrap(), form };
     Known { effect, spot, values: values.to_vec(), session: None, at: Default::default() }
+}
+
+/// Holds what `read` says of wrong files against a text of them: `|` begins a line of a file, `>` one of the file beside
+/// it (a map, a bench), and what is said stands below. With `STIFFARM_WRITE_DOCS` set the text is written anew.
+#[track_caller]
+pub(crate) fn says(path: &str, read: impl Fn(&str, &str) -> String) {
+    let path = format!("{}/{path}", env!("CARGO_MANIFEST_DIR"));
+    let kept = std::fs::read_to_string(&path).unwrap();
+    let said = kept.trim_end().split("\n\n").map(|case| {
+        let is_file = |line: &&str| line.starts_with(['|', '>']);
+        let of = |mark: char| -> String {
+            let lines = case.lines().filter_map(|line| line.strip_prefix(mark));
+            lines.map(|line| format!("{}\n", line.strip_prefix(' ').unwrap_or(line))).collect()
+        };
+        let files: Vec<&str> = case.lines().filter(is_file).collect();
+        [files, vec![&read(&of('|'), &of('>'))]].concat().join("\n")
+    });
+    let said = said.collect::<Vec<_>>().join("\n\n") + "\n";
+    if std::env::var_os("STIFFARM_WRITE_DOCS").is_some() {
+        std::fs::write(&path, &said).unwrap();
+    }
+    assert!(kept == said, "{path} is not what is said:\n{said}");
 }

@@ -8,7 +8,6 @@ use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::{Arm, Beam, Drive, Joint};
 
 use crate::measurement::{Body, Layout, Marker, Payloads};
-use crate::observe::Bench;
 
 /// A robot whose parameters are not all known cannot be simulated.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -148,11 +147,9 @@ pub fn layout(robot: &Robot) -> Result<Layout, RobotError> {
     refuse_symbols(robot, read)?;
     let carried = (!bodies.is_empty()).then(|| Ok(Payloads { bodies, arm: arm(robot)? }));
     Ok(Layout {
-        motions: robot.joints.iter().map(|j| j.motion).collect(),
-        readings: true,
         markers,
         payloads: carried.transpose()?,
-        bench: Bench::NONE,
+        ..Layout::new(robot.joints.iter().map(|j| j.motion))
     })
 }
 

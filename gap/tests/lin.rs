@@ -3,7 +3,7 @@
 //! deflections of a planar two-link arm. The arm and the data are built here from the printed
 //! numbers.
 
-use nalgebra::{Isometry3, Vector3};
+use nalgebra::Vector3;
 use stiffarm_gap::diagnose::Alternative;
 use stiffarm_gap::measurement::Layout;
 use stiffarm_gap::{Diagnosis, Measurements, Options, diagnose};
@@ -19,18 +19,7 @@ const PSI: f64 = POUND / (INCH * INCH);
 /// large.
 fn arm() -> Arm {
     let link = |second_moment: f64| Joint {
-        motion: Motion::Revolute,
-        theta: 0.0,
-        d: 0.0,
         a: 24.0 * INCH,
-        alpha: 0.0,
-        beta: 0.0,
-        compliance: 0.0,
-        mass: 0.0,
-        com: Vector3::zeros(),
-        inertia: Default::default(),
-        drive: Default::default(),
-        limits: None,
         beam: Some(Beam {
             youngs_modulus: 10e6 * PSI,
             shear_modulus: 3.8e6 * PSI,
@@ -41,15 +30,14 @@ fn arm() -> Arm {
             density: 0.0,
             shear_coefficient: None,
         }),
+        ..Joint::default()
     };
     Arm {
         name: "Lin 1991 two-link planar arm".to_owned(),
         convention: Convention::Standard,
         joints: vec![link(1.920), link(0.289)],
-        base: Isometry3::identity(),
-        tool: Isometry3::identity(),
-        tool_rotation_vector: Vector3::zeros(),
         gravity: Vector3::new(0.0, -9.80665, 0.0),
+        ..Arm::default()
     }
 }
 
@@ -98,13 +86,7 @@ fn data() -> Measurements {
             format!("{theta1},{theta2},-1.02,-{exp},-{printed},{:e},{:e},{:e}\n", -ycd, -ytd, -yt);
         text.push_str(&line);
     }
-    let layout = Layout {
-        motions: vec![Motion::Revolute; 2],
-        readings: true,
-        markers: Vec::new(),
-        payloads: None,
-        bench: stiffarm_gap::observe::Bench::NONE,
-    };
+    let layout = Layout::new([Motion::Revolute; 2]);
     Measurements::from_bytes("lin1991_table3.csv", text.as_bytes(), &layout).unwrap()
 }
 

@@ -14,9 +14,6 @@ pub type Numbers<'py> = Bound<'py, PyArrayDyn<f64>>;
 
 /// The numbers of an argument, and whether they are an array of numpy.float32; an array of doubles that lies pose
 /// after pose is not copied.
-///
-/// # Errors
-/// `TypeError` where they are no real numbers.
 pub fn numbers<'py>(name: &str, given: &Bound<'py, PyAny>) -> PyResult<(Numbers<'py>, bool)> {
     if let Ok(array) = given.cast::<PyArrayDyn<f64>>()
         && array.is_c_contiguous()
@@ -37,9 +34,6 @@ pub fn numbers<'py>(name: &str, given: &Bound<'py, PyAny>) -> PyResult<(Numbers<
 }
 
 /// The dimensions before the last, which is to be `size`.
-///
-/// # Errors
-/// `ValueError` where it is not.
 pub fn lead(name: &str, array: &Numbers<'_>, size: usize) -> PyResult<Vec<usize>> {
     match array.shape() {
         [lead @ .., last] if *last == size => Ok(lead.to_vec()),

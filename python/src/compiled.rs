@@ -54,9 +54,6 @@ fn called(asked: &Asked) -> String {
 }
 
 /// The text: the kernels as one source, and for each output a loop over poses.
-///
-/// # Errors
-/// A sentence where the table has no numbers.
 pub fn source(robot: &Robot) -> Result<String, String> {
     let robot = &Robot { inverse_kinematics: None, ..robot.clone() };
     let options =
@@ -106,9 +103,6 @@ pub fn source(robot: &Robot) -> Result<String, String> {
 
 impl Library {
     /// Loads what a compiler made of the text of [`source`] of this robot.
-    ///
-    /// # Errors
-    /// A sentence: what the system says.
     #[allow(
         unsafe_code,
         reason = "loading runs what is in the library: kernels, and nothing before"
@@ -166,9 +160,6 @@ impl Library {
     }
 
     /// Whether it gives what the arm gives without it, at some postures under some load.
-    ///
-    /// # Errors
-    /// A sentence: which output is another.
     pub fn agrees(&self, arm: &Engines) -> Result<(), String> {
         const POSES: usize = 8;
         // Half of the digits: a wrong text or compiler is farther off, and what rounds is nearer, through the solution of

@@ -73,9 +73,6 @@ impl Effect {
 
 impl Effect {
     /// The catalogue with the effect in it.
-    ///
-    /// # Errors
-    /// `ValueError` if the catalogue has one of that name.
     pub fn join(&self, py: Python<'_>, catalogue: Catalogue) -> PyResult<Catalogue> {
         if catalogue.named(&self.name).is_some() {
             return Err(twice(&self.name));
@@ -104,9 +101,6 @@ impl Effect {
     }
 
     /// What the function raised, if it did.
-    ///
-    /// # Errors
-    /// Just that.
     pub fn raised(&self) -> PyResult<()> {
         self.made.get().map_or(Ok(()), |own| own.function.raised())
     }

@@ -140,9 +140,6 @@ impl Engines {
     }
 
     /// Takes C that was compiled of this robot, once it gives what is given without it.
-    ///
-    /// # Errors
-    /// A sentence: which output is another.
     pub fn take(&self, library: Library) -> Result<(), String> {
         library.agrees(self)?;
         // Another thread's is the same.
@@ -151,9 +148,6 @@ impl Engines {
     }
 
     /// Writes the blocks of all poses.
-    ///
-    /// # Errors
-    /// [`batch::Error::Unstable`]; the others' blocks are written.
     pub fn evaluate(
         &self,
         asked: &Asked,

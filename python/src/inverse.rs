@@ -28,9 +28,6 @@ pub type Found<'py> = (
 
 impl Inverse {
     /// Of a robot as kernels are made of it, with this given of seven joints where it is chosen.
-    ///
-    /// # Errors
-    /// What stands in the way of a closed form, in words.
     pub fn new(robot: &Robot, given: Option<&str>) -> Result<Inverse, String> {
         let mut robot = robot.clone();
         let refused = |Refused { message, help }| format!("{message}: {help}");
@@ -41,9 +38,6 @@ impl Inverse {
 
     /// Every branch at poses, homogeneous matrices; readings `near`, one for all or one for each; the loaded arm where there is a
     /// wrench.
-    ///
-    /// # Errors
-    /// `ValueError` and `TypeError` of arrays that do not fit.
     pub fn found<'py>(
         &self,
         py: Python<'py>,

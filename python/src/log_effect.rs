@@ -97,9 +97,6 @@ impl LogEffect {
 
 impl LogEffect {
     /// The catalogue with the effect in it.
-    ///
-    /// # Errors
-    /// `ValueError` if the catalogue has one of that name.
     pub fn join(&self, py: Python<'_>, catalogue: Catalogue) -> PyResult<Catalogue> {
         if catalogue.named(&self.name).is_some() {
             return Err(twice(&self.name));
@@ -126,9 +123,6 @@ impl LogEffect {
     }
 
     /// What the function raised, if it did.
-    ///
-    /// # Errors
-    /// Just that.
     pub fn raised(&self) -> PyResult<()> {
         self.made.get().map_or(Ok(()), |own| own.function.raised())
     }

@@ -22,9 +22,6 @@ pub enum Own {
 
 impl Own {
     /// The catalogues with the effect in one of them.
-    ///
-    /// # Errors
-    /// `ValueError` if that has one of its name.
     pub fn join(&self, py: Python<'_>, catalogues: Catalogues) -> PyResult<Catalogues> {
         let Catalogues { at_rest, in_motion } = catalogues;
         Ok(match self {
@@ -38,9 +35,6 @@ impl Own {
     }
 
     /// What its function raised, if it did.
-    ///
-    /// # Errors
-    /// Just that.
     pub fn raised(&self) -> PyResult<()> {
         match self {
             Own::AtRest(effect) => effect.get().raised(),
@@ -74,9 +68,6 @@ impl Function {
     }
 
     /// Refuses what are not as many finite numbers.
-    ///
-    /// # Errors
-    /// `ValueError`.
     pub fn finite(&self, found: &[f64], expected: usize) -> PyResult<()> {
         let finite = found.iter().filter(|x| x.is_finite()).count();
         if (found.len(), finite) == (expected, expected) {
@@ -89,9 +80,6 @@ impl Function {
     }
 
     /// What it raised, if it did.
-    ///
-    /// # Errors
-    /// Just that.
     pub fn raised(&self) -> PyResult<()> {
         self.raised.lock().unwrap_or_else(PoisonError::into_inner).take().map_or(Ok(()), Err)
     }
@@ -103,9 +91,6 @@ pub fn kept(text: &str) -> &'static str {
 }
 
 /// Refuses what is no function, and an effect without numbers.
-///
-/// # Errors
-/// `TypeError`, `ValueError`.
 pub fn checked(change: &Bound<'_, PyAny>, parameters: &[(String, String)]) -> PyResult<()> {
     if !change.is_callable() {
         return Err(PyTypeError::new_err("change: expected a function"));

@@ -11,7 +11,6 @@
 //! second are those that nobody tunes by: it holds the goals, over 600 logs, of which 72 have an effect that the
 //! diagnosis does not know and could tell.
 
-use stiffarm_gap::effects::IN_MOTION;
 use stiffarm_gap::log::LogOptions;
 use stiffarm_gap::motion::{Fourier, Limits};
 use stiffarm_gap::plant::motion::{LAWS, Law, Logged, Recording, Side, Stage};
@@ -113,12 +112,6 @@ pub fn arm(id: &str) -> Arm {
     arm
 }
 
-/// Effects that the diagnosis knows; of others nothing can be asked.
-fn known() -> Vec<&'static Law> {
-    let known = |law: &&Law| IN_MOTION.iter().any(|effect| effect.identifier() == law.name);
-    LAWS.iter().filter(known).collect()
-}
-
 fn run(setting: &Setting, cases: usize, seed: u64) -> Report {
     let arm = arm(setting.robot);
     let limits = Limits::of(&arm, &[1.5], &[5.0]).expect("joints with limits");
@@ -131,7 +124,7 @@ fn run(setting: &Setting, cases: usize, seed: u64) -> Report {
         courses.iter().map(|course| Stage { course, payload: None }).collect();
     let only = std::env::var("LOGS_EFFECTS").ok();
     let asked = |law: &&'static Law| only.as_ref().is_none_or(|only| only.contains(law.name));
-    let effects: Vec<&'static Law> = known().into_iter().filter(asked).collect();
+    let effects: Vec<&'static Law> = LAWS.iter().filter(asked).collect();
     let experiment = Experiment::Log(Motion {
         stages: &stages,
         logged: setting.logged,

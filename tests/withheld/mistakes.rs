@@ -36,7 +36,6 @@ const ROBOTS: [(&str, f64, f64); 7] = [
 /// The robots that are tried in place of the file's.
 const FAMILY: [&str; 4] = ["ur5", "ur10", "irb120", "kuka_kr240"];
 
-/// All kinds.
 const KINDS: [&str; 21] = [
     "joint_sign",
     "joint_zero",

@@ -19,9 +19,6 @@ struct Named {
 }
 
 /// Frame and tool of each point.
-///
-/// # Errors
-/// [`Failure`]: an option that is no pose or that no point asks for, or a frame or tool that nothing defines.
 pub(super) fn places(
     program: &Program,
     (frames, tools): (&[String], &[String]),

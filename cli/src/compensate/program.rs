@@ -52,9 +52,6 @@ pub struct ProgramArgs {
 
 impl ProgramArgs {
     /// Reads, corrects and writes the program.
-    ///
-    /// # Errors
-    /// [`Failure`]: a file of the program, a frame or tool that nothing defines, the options, or an output.
     pub(super) fn run(
         &self,
         source: Source,

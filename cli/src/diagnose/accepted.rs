@@ -22,8 +22,6 @@ pub struct Accepted {
 }
 
 impl Accepted {
-    /// # Errors
-    /// [`Failure`] where no position is measured, or no row of the checked file can be judged.
     pub fn judge(
         tolerance: f64,
         found: &Diagnosis,

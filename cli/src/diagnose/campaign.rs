@@ -15,7 +15,7 @@ use stiffarm_kernels::generic::Arm;
 
 use super::corrected::{Corrections, commented, made_from};
 use super::log::Part;
-use super::{Accepted, Check, Compared, Found, Hashes, Motion, Provenance, Settings, in_words};
+use super::{Accepted, Check, Compared, Found, Hashes, Provenance, Settings, in_words};
 use crate::document::campaign::{Campaign as Reported, Fitted};
 use crate::document::{Document, Embedded};
 use crate::host::Host;
@@ -64,9 +64,6 @@ pub(super) struct Told<'a> {
 impl Campaign {
     /// Reads and diagnoses the measurements in `files` as one campaign, with the effects of `catalogue` and the springs
     /// that a log tells.
-    ///
-    /// # Errors
-    /// [`Failure`]: the data or the options.
     pub(super) fn new(
         settings: &Settings,
         source: Source,
@@ -226,10 +223,6 @@ impl Campaign {
 impl Found for Campaign {
     fn campaign(&self) -> Option<&Campaign> {
         Some(self)
-    }
-
-    fn motion(&self) -> Option<&Motion> {
-        None
     }
 
     fn json(&self) -> Result<String, Failure> {

@@ -9,9 +9,7 @@ use stiffarm_gap::{DiagnoseError, Measurements};
 /// The gap on measurements that played no part in the diagnosis.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Check {
-    /// The file.
     pub file: String,
-    /// Its rows.
     pub rows: usize,
     /// Those within the joint ranges, the loads and the largest leverage of the diagnosed data; only
     /// they are judged.
@@ -33,9 +31,6 @@ pub struct Check {
 impl Check {
     /// Predicts `other` with what was found in `data`. Where the readings of `data` were `mended`, so are those of
     /// `other` if that leaves a smaller gap.
-    ///
-    /// # Errors
-    /// [`DiagnoseError`]: what in the data stands in the way.
     pub fn of(
         diagnosed: &Diagnosed,
         mended: Option<&Mended>,

@@ -45,7 +45,6 @@ pub struct Compared {
     pub same_robot: Option<bool>,
     /// Then.
     pub last: Reached,
-    /// Now.
     pub now: Reached,
     /// Effects and places that only this one has.
     pub added: Vec<(Word, String)>,
@@ -72,9 +71,6 @@ pub struct Number {
 
 impl Compared {
     /// Compares with the diagnosis in `file`.
-    ///
-    /// # Errors
-    /// [`Failure`]: it cannot be read, is no diagnosis, or one of another robot.
     pub fn with(
         file: &Path,
         found: &Diagnosis,

@@ -82,7 +82,6 @@ impl<'a> Corrections<'a> {
         lines
     }
 
-    /// The robot.
     pub fn robot(&self) -> &Robot {
         &self.found().robot
     }
@@ -143,9 +142,6 @@ pub fn commented(lines: Vec<String>, robot: &Robot) -> String {
 }
 
 /// A corrected arm as another program reads it, and a sentence on what it has no place for.
-///
-/// # Errors
-/// [`Failure`] if the table has cells that are no numbers.
 pub fn exported(robot: &Robot, format: Format) -> Result<(String, Option<String>), Failure> {
     let (written, lost, name) = match format {
         Format::Urdf => (urdf(robot), lost_in_urdf(robot), "a URDF"),

@@ -33,9 +33,6 @@ pub struct Hashes {
 
 impl Provenance {
     /// Of the measurement file at `path` with that hash, and the text of a robot file.
-    ///
-    /// # Errors
-    /// [`Failure`]: `SOURCE_DATE_EPOCH` is no number of seconds.
     pub fn of(path: &Path, data: Sha256, robot: &str, host: &Host) -> Result<Provenance, Failure> {
         let hashes = Hashes {
             data_sha256: hexadecimal(&data.finalize()),

@@ -226,7 +226,6 @@ enum Given {
 }
 
 impl Given {
-    /// With its unit.
     fn text(self, unit: &str) -> String {
         match self {
             Given::Number(number) => format!("{number:?}{unit}"),

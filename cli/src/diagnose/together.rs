@@ -56,9 +56,6 @@ struct Written<'a> {
 
 impl Settings {
     /// What is chosen of a campaign, and of a log beside it.
-    ///
-    /// # Errors
-    /// [`Failure`]: a file to check that cannot be read.
     pub(super) fn both(
         &self,
         catalogues: &Catalogues,
@@ -80,9 +77,6 @@ impl Settings {
 
 impl Together {
     /// Reads and diagnoses both: the log first, so that the campaign knows what it tells of springs.
-    ///
-    /// # Errors
-    /// [`Failure`]: the data or the options.
     pub(super) fn new(
         [of_campaign, of_log]: &[Settings; 2],
         source: Source,

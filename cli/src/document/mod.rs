@@ -43,14 +43,12 @@ pub enum Block {
     Verdict(Option<bool>, String),
     /// Blocks under a heading, with a remark beside it.
     Section {
-        /// The heading.
         heading: String,
         /// What has to be known to read it.
         remark: String,
         /// What it holds.
         blocks: Vec<Block>,
     },
-    /// A paragraph.
     Paragraph(String),
     /// Remarks of one kind under their name; a screen has the first `most` of them.
     Note {
@@ -72,7 +70,6 @@ pub enum Block {
     },
     /// Entries, one line each.
     List(Vec<String>),
-    /// A table.
     Table(Table),
     /// Findings: those that matter in full, the others in one line.
     Findings {

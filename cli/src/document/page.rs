@@ -26,9 +26,6 @@ struct Data<'a, F: Serialize, W: Serialize> {
 
 impl Embedded {
     /// What the figures of a page read, the report as it is written in JSON, and the figures' script.
-    ///
-    /// # Errors
-    /// [`Failure`] if something in it is no JSON.
     pub fn new(
         figures: impl Serialize,
         whole: &impl Serialize,
@@ -58,9 +55,6 @@ struct Page<'a> {
 
 impl Document {
     /// The page in HTML.
-    ///
-    /// # Errors
-    /// [`Failure`] if the templates cannot be filled.
     pub fn html(&self, embedded: &Embedded) -> Result<String, Failure> {
         self.page(embedded).map_err(wrong)
     }

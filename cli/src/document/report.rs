@@ -51,7 +51,6 @@ pub struct Method {
 }
 
 impl Report {
-    /// The document.
     pub fn document(self) -> Document {
         let Report { robot, about, facts, sentence, first, error, rest, page } = self;
         let mut blocks = vec![Block::Sentence(sentence)];
@@ -75,7 +74,6 @@ impl Errors {
 }
 
 impl Method {
-    /// The section.
     pub fn section(self) -> Block {
         let mut blocks = vec![Block::Paragraph(self.text.to_owned())];
         blocks.extend((!self.facts.is_empty()).then_some(Block::Facts(self.facts)));

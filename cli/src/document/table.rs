@@ -17,7 +17,6 @@ pub type Row = Vec<Cell>;
 /// What stands in a cell.
 #[derive(Clone, Debug)]
 pub enum Cell {
-    /// Text.
     Text(String),
     /// A number, aligned to the right.
     Number(String),
@@ -55,7 +54,6 @@ impl<T: Into<String>> From<T> for Cell {
 }
 
 impl Cell {
-    /// A number.
     pub fn number(text: impl Into<String>) -> Cell {
         Cell::Number(text.into())
     }

@@ -18,7 +18,6 @@ const HOUR: f64 = 3600.0;
 pub struct Unit<'a> {
     /// As it stands behind a number.
     pub name: &'a str,
-    /// What one of it is in SI.
     pub si: f64,
     /// Digits behind the point; `None` for three significant digits.
     pub decimals: Option<usize>,
@@ -64,7 +63,6 @@ impl<'a> Unit<'a> {
         Unit { decimals: Some(decimals(least / self.si, 2).min(3)), ..self }
     }
 
-    /// A number in SI.
     pub fn number(self, si: f64) -> String {
         self.decimals.map_or_else(|| short(si / self.si), |digits| fixed(si / self.si, digits))
     }
@@ -108,7 +106,6 @@ pub struct Units {
 }
 
 impl Units {
-    /// Of measurements.
     pub fn of(data: &Measurements) -> Units {
         let mut all = data.wrench_in.iter().chain(&data.measured_in).flatten();
         let mut lengths = data.measured_in[..3].iter().flatten();

@@ -96,10 +96,6 @@ const OUTPUTS: [Output; 8] = [
     Output::Deflection,
 ];
 
-/// Runs the command.
-///
-/// # Errors
-/// [`Failure`]: the robot, the values, or the arm not stable under the load.
 pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     let source = args.robot.load(host)?;
     let arm = source.arm()?;

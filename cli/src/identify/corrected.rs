@@ -11,9 +11,6 @@ use crate::terminal::failure::Failure;
 
 /// The robot's file anew: stiffnesses of the joints that were found, moduli of the beams, what the
 /// foundation gives as an `[[effect]]`; of what was held, or came out without being positive, as before.
-///
-/// # Errors
-/// [`Failure`] if something in the robot has no number.
 pub fn robot(source: &Source, answer: &Answer, data: &str) -> Result<String, Failure> {
     let mut robot = source.robot.clone();
     let mut remarks = vec![format!("Identified by stiffarm from {data}; of {}.", source.given)];

@@ -35,7 +35,6 @@ const CURVES: &str = "The line is the correction of the joint; a point is the sa
 pub struct Identified<'a> {
     /// The robot file.
     pub source: &'a Source,
-    /// Its arm.
     pub arm: &'a Arm,
     /// From what it was identified.
     pub data: &'a Measurements,
@@ -76,9 +75,6 @@ impl Identified<'_> {
     }
 
     /// What its page embeds; `whole` is the result as it is written.
-    ///
-    /// # Errors
-    /// [`Failure`] if something in it is no JSON.
     pub fn embedded(&self, whole: &Value) -> Result<Embedded, Failure> {
         let mut experiment = self.experiment();
         experiment.shares = shares(&experiment, self.answer);

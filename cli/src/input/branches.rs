@@ -24,9 +24,6 @@ pub struct Branches {
 
 impl Branches {
     /// Those of a robot file, with this given of seven joints where it is chosen ([`give`](stiffarm_codegen::robot::Robot::give)).
-    ///
-    /// # Errors
-    /// [`Failure`]: an effect of which no kernel can be made, no such joint, or no closed form near the table.
     pub fn new(source: &Source, weighs: bool, given: Option<&str>) -> Result<Branches, Failure> {
         let mut robot = source.for_kernels()?;
         if !weighs {

@@ -35,18 +35,12 @@ impl BenchArgs {
     }
 
     /// What the reader of a file must know of the robot and the bench.
-    ///
-    /// # Errors
-    /// As [`layout_beside`].
     pub fn layout(&self, source: &Source, host: &Host) -> Result<Layout, Failure> {
         layout_beside(self.bench.as_deref(), source, host)
     }
 }
 
 /// What the reader of a file must know of the robot, and of the bench where there is a file of it.
-///
-/// # Errors
-/// [`Failure`] if a marker of the robot has no numbers, or the bench cannot be read.
 pub fn layout_beside(
     bench: Option<&Path>,
     source: &Source,
@@ -62,17 +56,11 @@ pub fn layout_beside(
 }
 
 /// What the reader of a file must know of the robot.
-///
-/// # Errors
-/// [`Failure`] if a marker of the robot has no numbers.
 pub fn layout(source: &Source) -> Result<Layout, Failure> {
     Ok(stiffarm_gap::robot::layout(&source.robot)?)
 }
 
 /// Reads a file, and says which rows are left out unless `quiet`.
-///
-/// # Errors
-/// [`Failure`]: it cannot be read, or its mistakes.
 pub fn read(path: &Path, layout: &Layout, host: &Host) -> Result<Measurements, Failure> {
     if !host.is_on_disk(path) {
         return read_bytes(path, &host.read(path)?, layout, host);
@@ -88,9 +76,6 @@ pub fn read(path: &Path, layout: &Layout, host: &Host) -> Result<Measurements, F
 }
 
 /// The same of a file whose bytes are there.
-///
-/// # Errors
-/// [`Failure`]: its mistakes.
 pub fn read_bytes(
     path: &Path,
     bytes: &[u8],
@@ -119,9 +104,6 @@ fn told(data: Result<Measurements, Failure>, host: &Host) -> Result<Measurements
 }
 
 /// Reads the poses and loads of a file, of which nothing need be measured.
-///
-/// # Errors
-/// [`Failure`]: it cannot be read, or its mistakes.
 pub fn read_plan(path: &Path, layout: &Layout, host: &Host) -> Result<Measurements, Failure> {
     let bytes = host.read(path)?;
     let file = path.display().to_string();
@@ -138,9 +120,6 @@ pub fn doubted(arm: &Arm, data: &Measurements, along: &[Nuisance], host: &Host) 
 }
 
 /// Reads the bytes of a file.
-///
-/// # Errors
-/// [`Failure`]: its mistakes.
 pub fn from_bytes(path: &Path, bytes: &[u8], layout: &Layout) -> Result<Measurements, Failure> {
     let file = path.display().to_string();
     let data = Measurements::from_bytes(&file, bytes, layout);

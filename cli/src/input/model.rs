@@ -9,15 +9,11 @@ use stiffarm_kernels::{Output, Unstable};
 pub struct Model(Vec<(Output, Program)>);
 
 impl Model {
-    /// For these outputs.
     pub fn new(robot: &Robot, outputs: &[Output]) -> Model {
         Model(outputs.iter().map(|o| (*o, derive(robot, &[*o]))).collect())
     }
 
     /// An output as one column-major block. It must be one that the model was made for.
-    ///
-    /// # Errors
-    /// [`Unstable`] where a deflection has no stable equilibrium.
     pub fn evaluate(
         &self,
         output: Output,
@@ -31,9 +27,6 @@ impl Model {
     }
 
     /// The same computed in single precision.
-    ///
-    /// # Errors
-    /// [`Unstable`] where a deflection has no stable equilibrium.
     pub fn single(&self, output: Output, q: &[f64], w: &[f64; 6]) -> Result<Vec<f64>, Unstable> {
         let q: Vec<f32> = q.iter().map(|x| *x as f32).collect();
         let w = w.map(|x| x as f32);

@@ -5,9 +5,6 @@ use stiffarm_gap::io::{did_you_mean, nearest};
 use crate::terminal::failure::Failure;
 
 /// What has these names among what is `known` by its name; an error begins with `option`.
-///
-/// # Errors
-/// [`Failure`]: a name that none has, and which it may be.
 pub fn effects<T: Clone>(
     known: &[(&'static str, T)],
     names: &[String],

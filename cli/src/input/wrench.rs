@@ -7,9 +7,6 @@ use super::quantity;
 use crate::terminal::failure::Failure;
 
 /// `fx,fy,fz,mx,my,mz`: base axes, at the tool origin; N and N·m, or with a unit.
-///
-/// # Errors
-/// [`Failure`] names the option and the value.
 pub fn wrench(option: &str, text: &str) -> Result<Vector6<f64>, Failure> {
     let kinds = [[Dimension::Force; 3], [Dimension::Moment; 3]].concat();
     let whose = "a wrench is three forces and three moments: fx,fy,fz,mx,my,mz";

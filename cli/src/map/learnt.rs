@@ -37,9 +37,6 @@ pub struct Learnt {
 
 impl Learnt {
     /// Diagnoses the measurements if they are `wanted`.
-    ///
-    /// # Errors
-    /// [`Failure`]: no measurements, or ones that are not meant; their mistakes; nothing found.
     pub fn new(
         args: &LearntArgs,
         wanted: bool,
@@ -80,9 +77,6 @@ impl Learnt {
     }
 
     /// The gap before and after at a posture.
-    ///
-    /// # Errors
-    /// [`DiagnoseError`] of the posture.
     pub fn expected(&self, q: &[f64], wrench: &Vector6<f64>) -> Result<Expected, DiagnoseError> {
         self.explanation.expected(q, wrench)
     }

@@ -81,9 +81,6 @@ struct Area {
 }
 
 /// The map as a self-contained SVG.
-///
-/// # Errors
-/// [`Failure`] if the template cannot be filled.
 pub fn svg(source: &Source, sweep: &Sweep, asked: &Quantity, map: &Map) -> Result<String, Failure> {
     let [first, second] = &sweep.axes;
     let x: Vec<f64> = map.plane.first.iter().map(|v| first.shown(*v)).collect();

@@ -78,9 +78,6 @@ pub struct Quantity {
 
 impl Quantity {
     /// By the options of the command line.
-    ///
-    /// # Errors
-    /// [`Failure`]: a wrench or a length that is missing, not meant, or no number.
     pub fn new(
         of: Of,
         load: Option<&str>,
@@ -129,9 +126,6 @@ impl Quantity {
     }
 
     /// At a posture, in [`Quantity::unit`].
-    ///
-    /// # Errors
-    /// [`NoValue`]; [`NoValue::Unstable`] where there is no value.
     pub fn value(&self, whole: Whole<'_>, q: &[f64]) -> Result<f64, NoValue> {
         Ok(match self.of {
             Of::Condition => inverse_condition(whole, q, self.length)?,

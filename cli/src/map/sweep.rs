@@ -48,9 +48,6 @@ pub struct Sweep {
 
 impl Sweep {
     /// By the options of the command line.
-    ///
-    /// # Errors
-    /// [`Failure`]: joints that do not exist or cannot be swept, values that are none.
     pub fn new(
         source: &Source,
         arm: &Arm,

@@ -12,10 +12,6 @@ use crate::input::source;
 use crate::terminal::failure::{Failure, Remark};
 use crate::terminal::output::Target;
 
-/// Runs the command.
-///
-/// # Errors
-/// [`Failure`]: a file's mistakes, or an output that cannot be written.
 pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     if let Some(Figure::Growth) = args.figure {
         match &args.svg {

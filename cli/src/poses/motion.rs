@@ -1,8 +1,9 @@
 //! Commands of a motion whose log says most.
 
+use stiffarm_gap::effects::Spot;
 use stiffarm_gap::excite::{Excitation, Plan, Purpose, excite};
 use stiffarm_gap::motion::{Course, commands};
-use stiffarm_gap::plant::motion::{Law, Logged, MotionTruth, Side, Spot};
+use stiffarm_gap::plant::motion::{Law, Logged, MotionTruth, Side};
 use stiffarm_kernels::generic::Arm;
 
 use super::Args;
@@ -33,9 +34,6 @@ const RATE: f64 = 100.0;
 const TRIES: usize = 150;
 
 /// Chooses a motion and writes its commands.
-///
-/// # Errors
-/// [`Failure`]: the robot, the limits, the effects, or an output that cannot be written.
 pub(super) fn run(args: &Args, source: &Source, host: &Host) -> Result<Verdict, Failure> {
     if args.count.is_some() || !args.loads.is_empty() || !args.nuisance.is_empty() || args.rotations
     {

@@ -13,10 +13,6 @@ use crate::terminal::output::Target;
 use crate::terminal::text::short;
 
 /// Moves the arm and writes what it logs.
-///
-/// # Errors
-/// [`Failure`]: the robot, the commands, an effect that this arm cannot have, or an output that cannot
-/// be written.
 pub(super) fn run(
     args: &Args,
     source: &Source,

@@ -14,7 +14,6 @@ use super::whole::Whole;
 pub enum Target {
     /// Standard output.
     Stdout,
-    /// A file.
     File(PathBuf),
 }
 
@@ -28,9 +27,6 @@ impl std::str::FromStr for Target {
 
 impl Target {
     /// Writes there what `write` writes bit by bit; where that says that it is nothing, a file is as it was.
-    ///
-    /// # Errors
-    /// [`Failure`] says where and why.
     pub(crate) fn stream(
         &self,
         write: &mut dyn FnMut(&mut dyn Write) -> io::Result<bool>,
@@ -59,9 +55,6 @@ impl Target {
 }
 
 /// Refuses results of a command that would go to one place, or to where something is read.
-///
-/// # Errors
-/// [`Failure`] names both options.
 pub fn apart(command: &Command, given: &ArgMatches) -> Result<(), Failure> {
     let mut taken: Vec<(String, PathBuf)> = Vec::new();
     let mut results: Vec<(String, Target)> = Vec::new();
@@ -107,9 +100,6 @@ fn place(path: &Path) -> PathBuf {
 }
 
 /// Prints to standard output. A reader that has seen enough (`| head`) is no mistake.
-///
-/// # Errors
-/// [`Failure`] if standard output cannot be written to.
 pub fn print(text: &str) -> Result<(), Failure> {
     let mut out = io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
@@ -121,9 +111,6 @@ pub fn print(text: &str) -> Result<(), Failure> {
 }
 
 /// Writes a file, which is as it was where that fails.
-///
-/// # Errors
-/// As writing it.
 pub fn file(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let mut whole = Whole::new(path)?;
     whole.write_all(bytes)?;

@@ -23,7 +23,6 @@ const NOTHING: &str = "nothing";
 /// Confusions that a screen has.
 const MOST: usize = 6;
 
-/// The document.
 pub fn document(report: &Report, position_log: bool) -> Document {
     let mut blocks = vec![Block::Sentence(sentence(report)), rates(report)];
     blocks.extend(confusions(report));

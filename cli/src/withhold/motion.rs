@@ -1,6 +1,5 @@
 //! The withheld check of joint logs.
 
-use stiffarm_gap::effects::IN_MOTION;
 use stiffarm_gap::log::LogOptions;
 use stiffarm_gap::plant::motion::{LAWS, Law, Logged};
 use stiffarm_gap::study::withhold::{Experiment, Motion, Report};
@@ -11,9 +10,6 @@ use crate::motion::{self, Courses};
 use crate::terminal::failure::Failure;
 
 /// Moves the arm many times, with an effect or without; and whether positions are logged.
-///
-/// # Errors
-/// [`Failure`]: the robot, the commands, or the options.
 pub(super) fn report(args: &Args, host: &Host) -> Result<(Report, bool), Failure> {
     let source = args.robot.load(host)?;
     let arm = motion::arm(&source, "withhold --motion")?;
@@ -35,11 +31,10 @@ pub(super) fn report(args: &Args, host: &Host) -> Result<(Report, bool), Failure
     Ok((report, logged == Logged::Position))
 }
 
-/// What is put in: those of such a log that the diagnosis knows, or those that are named.
+/// What is put in: those of such a log, or those that are named.
 fn effects(names: Option<&[String]>, logged: Logged) -> Result<Vec<&'static Law>, Failure> {
-    let is_known = |law: &&Law| IN_MOTION.iter().any(|effect| effect.identifier() == law.name);
     let known: Vec<&'static Law> =
-        LAWS.iter().filter(|law| law.rows.contains(&logged.rows())).filter(is_known).collect();
+        LAWS.iter().filter(|law| law.rows.contains(&logged.rows())).collect();
     let Some(names) = names else { return Ok(known) };
     let named = |name: &String| {
         known.iter().find(|law| law.name == name).copied().ok_or_else(|| {

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::support::{Folder, run, stiffarm};
+use crate::support::{Folder, has, list, number, read, run, stiffarm};
 
 const SOCKETS: &str = "
 [[point]]
@@ -35,13 +35,8 @@ fn a_plan_at_sockets_is_measured_and_diagnosed() {
     let postures = "poses irb120 --for diagnose --count 24";
     let screen = run(&format!("{postures} --bench {bench} --csv {plan}")).good();
     assert!(screen.contains("24 postures"), "{screen}");
-    let written = std::fs::read_to_string(&plan).expect("a plan");
-    assert!(
-        written.contains("point,plane")
-            && written.contains(",left,")
-            && written.contains(",,table"),
-        "{written}"
-    );
+    let written = read(&plan);
+    has(&written, &["point,plane", ",left,", ",,table"]);
     let effect = "joint_offset@joint 3=3e-3";
     stiffarm(&["simulate", "irb120", &plan, "--bench", &bench, "--effect", effect, "--csv", &data])
         .good();
@@ -50,7 +45,7 @@ fn a_plan_at_sockets_is_measured_and_diagnosed() {
         let is = |one: &Value| one["effect"] == "joint_offset" && one["place"] == "joint 3";
         is(finding) || finding["alternatives"].as_array().is_some_and(|all| all.iter().any(is))
     };
-    assert!(found["findings"].as_array().is_some_and(|all| all.iter().any(named)), "{found}");
+    assert!(list(&found["findings"]).iter().any(named), "{found}");
 }
 
 #[test]
@@ -61,16 +56,12 @@ fn a_camera_finds_a_soft_joint_and_tells_it_in_pixels() {
     let effect = "--effect 'joint_compliance@joint 2=8e-5'";
     run(&format!("simulate irb120 {shown} --csv {data} --bench {bench} {effect}")).good();
     let found = run(&format!("diagnose irb120 {data} --bench {bench} --json -")).json();
-    let [finding] = &found["findings"].as_array().expect("findings")[..] else { panic!("{found}") };
-    assert_eq!(
-        (finding["effect"].as_str(), finding["place"].as_str()),
-        (Some("joint_compliance"), Some("joint 2"))
-    );
-    let [low, high] =
-        [0, 1].map(|k| finding["parameters"][0]["ci95"][k].as_f64().expect("a number"));
+    let [finding] = list(&found["findings"]) else { panic!("{found}") };
+    assert!(finding["effect"] == "joint_compliance" && finding["place"] == "joint 2", "{finding}");
+    let [low, high] = [0, 1].map(|k| number(&finding["parameters"][0]["ci95"][k]));
     assert!(low < 8e-5 && 8e-5 < high, "{low} {high}");
     let left = &found["gap"]["after"]["kinds"]["camera"];
-    let rms = left["rms"].as_f64().expect("a number");
+    let rms = number(&left["rms"]);
     assert!(left["unit"] == "px" && (0.25..0.32).contains(&rms), "{left}");
     let screen = run(&format!("diagnose irb120 {data} --bench {bench}")).good();
     assert!(screen.contains("px rms") && screen.contains("Error in the picture"), "{screen}");

@@ -1,6 +1,6 @@
 //! What a robot file says beyond its table: every command that reads one honours it.
 
-use crate::support::{Folder, number, read, run, stiffarm};
+use crate::support::{Folder, Table, has, list, number, numbers, read, run, stiffarm};
 
 const ARM: &str = "docs/workbench/arm.toml";
 
@@ -69,8 +69,7 @@ fn what_the_table_holds_is_taken_into_it() {
     assert!(text.contains("q + 0.002"), "{text}");
     assert_ne!(text, emit(ARM));
     let at = |robot: &str, q: &str| -> Vec<f64> {
-        let out = stiffarm(&["eval", robot, "--q", q, "--json", "-"]).json();
-        serde_json::from_value(out["position"].clone()).expect("three numbers")
+        numbers(&stiffarm(&["eval", robot, "--q", q, "--json", "-"]).json()["position"])
     };
     let moved = at(ARM, "0.102,0.2,0.3,0.4,0.5,0.6");
     for (a, b) in at(&robot, "0.1,0.2,0.3,0.4,0.5,0.6").iter().zip(moved) {
@@ -86,8 +85,8 @@ fn what_a_posture_does_not_decide_is_refused_until_it_is_said() {
     let pose = stiffarm(&["eval", ARM, "--q", at, "--json", "-"]).json();
     let turn = nalgebra::Matrix3::from_fn(|r, c| number(&pose["rotation"][r][c]));
     let turn = nalgebra::Rotation3::from_matrix(&turn).scaled_axis();
-    let place = pose["position"].as_array().expect("three numbers").iter().map(number);
-    let goal: Vec<String> = place.chain(turn.iter().copied()).map(|x| x.to_string()).collect();
+    let place = numbers(&pose["position"]);
+    let goal: Vec<String> = place.iter().chain(&turn).map(f64::to_string).collect();
     let compensate = |columns: &str, cells: &str| {
         let goal = goal.join(",");
         let targets = format!("q1,q2,q3,q4,q5,q6,{columns}x,y,z,rx,ry,rz\n{at},{cells}{goal}\n");
@@ -95,16 +94,12 @@ fn what_a_posture_does_not_decide_is_refused_until_it_is_said() {
         stiffarm(&["compensate", &robot, "--targets", &targets, "--out", "-", "--quiet"])
     };
     let err = compensate("", "").refused();
-    assert!(
-        err.contains("the backlash at joint 2: neither columns s1 … sn nor --sides say"),
-        "{err}"
-    );
+    has(&err, &["the backlash at joint 2: neither columns s1 … sn nor --sides say"]);
     // From where joint 2 comes to rest: half the play to either side.
     let [below, above] = ["1,", "-1,"].map(|side| {
         let out = compensate("s2,", side).good();
-        let row = out.lines().last().expect("a row");
-        assert!(row.ends_with("reached"), "{row}");
-        row.split(',').nth(1).and_then(|cell| cell.parse::<f64>().ok()).expect("a number")
+        assert!(out.ends_with("reached\n"), "{out}");
+        Table::of(&out).numbers("q2[deg]")[0]
     });
     assert!(((below - above).to_radians() - 3e-3).abs() < 2e-6, "{below} {above}");
 }
@@ -149,8 +144,7 @@ fn a_base_stands_somewhere() {
         stiffarm(&["eval", robot, "--q", q, wrench, "--gravity", "--json", "-"]).json()
     };
     let (own, world) = (eval(ARM), eval(&robot));
-    let at =
-        |value: &serde_json::Value, key: &str, k: usize| value[key][k].as_f64().expect("a number");
+    let at = |value: &serde_json::Value, key: &str, k: usize| number(&value[key][k]);
     let near = |a: f64, b: f64| assert!((a - b).abs() < 1e-12 * (1.0 + b.abs()), "{a} {b}");
     // A quarter turn about z takes x to y and y to −x.
     near(at(&world, "position", 0), 0.5 - at(&own, "position", 1));
@@ -178,8 +172,7 @@ fn springs_are_identified_wherever_the_arm_stands() {
         let soft = "--effect 'joint_compliance@joint 2=1e-7'";
         run(&format!("simulate {robot} {exact} {soft} --csv {data}")).good();
         let found = stiffarm(&["identify", robot, &data, "--json", "-"]).json();
-        let each = found["parameters"].as_array().expect("a list").iter();
-        each.map(|p| p["value"].as_f64().expect("a number")).collect()
+        list(&found["parameters"]).iter().map(|p| number(&p["value"])).collect()
     };
     let (here, there) = (springs(ARM), springs(&with(&folder, "base.toml", base)));
     assert!((here[1] * 6.6e6 - 1.66).abs() < 0.01, "{here:?}");

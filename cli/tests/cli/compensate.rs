@@ -1,9 +1,8 @@
 //! `stiffarm compensate`.
 
 use nalgebra::Vector6;
-use stiffarm_gap::simulate::equilibrium;
 
-use crate::support::{Folder, arm, stiffarm};
+use crate::support::{Folder, Table, arm, read, stands, stiffarm};
 
 const LOAD: &str = "0,0,-2kN,0,0,0";
 
@@ -22,17 +21,6 @@ fn targets(extra: &str) -> String {
     rows + extra
 }
 
-/// The columns of a result by name, as text.
-fn column<'a>(csv: &'a str, name: &str) -> Vec<&'a str> {
-    let header: Vec<&str> = csv.lines().next().expect("a header").split(',').collect();
-    let at = header.iter().position(|h| *h == name).unwrap_or_else(|| panic!("no {name}: {csv}"));
-    csv.lines().skip(1).map(|line| line.split(',').nth(at).expect("a cell")).collect()
-}
-
-fn numbers(csv: &str, name: &str) -> Vec<f64> {
-    column(csv, name).iter().map(|cell| cell.parse().unwrap_or(f64::NAN)).collect()
-}
-
 /// The set-points are put into the simulator: the loaded tool stands at the targets.
 #[test]
 fn the_loaded_arm_stands_at_the_targets() {
@@ -41,24 +29,24 @@ fn the_loaded_arm_stands_at_the_targets() {
     let arguments = ["compensate", "kuka_kr240", "--targets", &file, "--wrench", LOAD, "--out"];
     let screen = stiffarm(&[&arguments[..], &[&out]].concat()).good();
     assert!(screen.contains("reached  6 of 6"), "{screen}");
-    let csv = std::fs::read_to_string(&out).expect("written");
-    assert_eq!(column(&csv, "pose"), ["p0", "p1", "p2", "p3", "p4", "p5"]);
-    assert!(column(&csv, "status").iter().all(|status| *status == "reached"), "{csv}");
+    let csv = read(&out);
+    let table = Table::of(&csv);
+    assert_eq!(table.column("pose"), ["p0", "p1", "p2", "p3", "p4", "p5"]);
+    assert!(table.column("status").iter().all(|status| *status == "reached"), "{csv}");
     assert!(!csv.contains(",-0.000000"), "{csv}");
     let arm = arm("kuka_kr240");
-    let joints: Vec<Vec<f64>> = (1..=6).map(|j| numbers(&csv, &format!("q{j}[deg]"))).collect();
-    let place = ["x[mm]", "y[mm]", "z[mm]"].map(|name| numbers(&csv, name));
+    let joints: Vec<Vec<f64>> = (1..=6).map(|j| table.numbers(&format!("q{j}[deg]"))).collect();
+    let place = ["x[mm]", "y[mm]", "z[mm]"].map(|name| table.numbers(name));
     let load = Vector6::new(0.0, 0.0, -2000.0, 0.0, 0.0, 0.0);
     for row in 0..6 {
         let q: Vec<f64> = joints.iter().map(|values| values[row].to_radians()).collect();
-        let tool = equilibrium(&arm, &q, &load).expect("stable").tool.translation.vector;
+        let tool = stands(&arm, &q, &load);
         for k in 0..3 {
             // To a micrometre, and the digits written.
             assert!((1e3 * tool[k] - place[k][row]).abs() < 1.1e-3, "{row} {tool} {csv}");
         }
-        let before = numbers(&csv, "before[mm]")[row];
-        assert!((0.01..20.0).contains(&before), "{csv}");
-        assert!(numbers(&csv, "error_rotation[mrad]")[row] <= 1e-3);
+        assert!((0.01..20.0).contains(&table.numbers("before[mm]")[row]), "{csv}");
+        assert!(table.numbers("error_rotation[mrad]")[row] <= 1e-3);
     }
     let printed = stiffarm(&[&arguments[..], &["-"]].concat()).good();
     assert_eq!(printed, csv);
@@ -70,19 +58,19 @@ fn what_is_not_reached_is_marked_and_kept() {
     let file = folder.file("path.csv", targets("far,9000,0,0,0,0,0\n"));
     let out = folder.name("out.csv");
     let arguments = ["compensate", "kuka_kr240", "--targets", &file, "--out", &out];
-    let run = stiffarm(&[&arguments[..], &["--starts", "4", "--wrench", LOAD]].concat());
-    assert_eq!(run.status, 1, "{}", run.err);
+    let run = stiffarm(&[&arguments[..], &["--starts", "4", "--wrench", LOAD]].concat()).ended(1);
     assert!(run.err.contains("1 of 7 targets are not reached"), "{}", run.err);
     assert!(run.out.contains("line 8: nearest") && run.out.contains("mm away"), "{}", run.out);
-    let csv = std::fs::read_to_string(&out).expect("written");
-    let status = column(&csv, "status");
+    let csv = read(&out);
+    let table = Table::of(&csv);
+    let status = table.column("status");
     assert!(status[..6].iter().all(|s| *s == "reached") && status[6].starts_with("nearest"));
-    assert!(numbers(&csv, "error[mm]")[6] > 5000.0, "{csv}");
-    let crushed = stiffarm(&[&arguments[..], &["--wrench", "0,0,-1e12,0,0,0"]].concat());
-    assert_eq!(crushed.status, 1);
-    let csv = std::fs::read_to_string(&out).expect("written");
-    assert!(column(&csv, "status").iter().all(|s| *s == "unstable"), "{csv}");
-    assert!(column(&csv, "q1[deg]").iter().all(|s| s.is_empty()), "{csv}");
+    assert!(table.numbers("error[mm]")[6] > 5000.0, "{csv}");
+    stiffarm(&[&arguments[..], &["--wrench", "0,0,-1e12,0,0,0"]].concat()).ended(1);
+    let csv = read(&out);
+    let table = Table::of(&csv);
+    assert!(table.column("status").iter().all(|s| *s == "unstable"), "{csv}");
+    assert!(table.column("q1[deg]").iter().all(|s| s.is_empty()), "{csv}");
 }
 
 /// Starts and loads of each row; positions alone.
@@ -94,7 +82,7 @@ fn rows_may_have_starts_and_loads_of_their_own() {
     let file = folder.file("path.csv", rows);
     let arguments = ["compensate", "kuka_kr240", "--targets", &file, "--out", "-"];
     let csv = stiffarm(&arguments).good();
-    let before = numbers(&csv, "before[mm]");
+    let before = Table::of(&csv).numbers("before[mm]");
     assert!(before[0] > 0.1 && before[1] < 2e-3, "{csv}");
     assert!(!csv.contains("rotation"), "{csv}");
     let err = stiffarm(&[&arguments[..], &["--wrench", LOAD]].concat()).refused();
@@ -105,8 +93,7 @@ fn rows_may_have_starts_and_loads_of_their_own() {
 fn a_rigid_arm_is_remarked_on() {
     let folder = Folder::new();
     let file = folder.file("path.csv", "x,y,z\n0.4,0.2,0.3\n");
-    let run = stiffarm(&["compensate", "ur5", "--targets", &file, "--out", "-"]);
-    assert_eq!(run.status, 0, "{}", run.err);
+    let run = stiffarm(&["compensate", "ur5", "--targets", &file, "--out", "-"]).ended(0);
     assert!(run.err.contains("nothing in the robot file gives way"), "{}", run.err);
 }
 
@@ -115,7 +102,7 @@ fn targets_in_millimetres_that_say_metres_are_doubted() {
     let folder = Folder::new();
     let file = folder.file("path.csv", targets("").replace("[mm]", ""));
     let run =
-        stiffarm(&["compensate", "kuka_kr240", "--targets", &file, "--starts", "1", "--out", "-"]);
-    assert_eq!(run.status, 1);
+        stiffarm(&["compensate", "kuka_kr240", "--targets", &file, "--starts", "1", "--out", "-"])
+            .ended(1);
     assert!(run.err.contains("is it millimetres? write x[mm]"), "{}", run.err);
 }

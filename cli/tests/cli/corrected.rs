@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 use crate::motion::ELBOW;
-use crate::support::{Folder, number, read, run, stiffarm};
+use crate::support::{Folder, Table, list, number, read, run, stiffarm};
 
 const ARM: &str = "docs/workbench/arm.toml";
 
@@ -29,7 +29,7 @@ fn corrected(folder: &Folder) -> [String; 2] {
 
 fn springs(robot: &str, data: &str) -> Vec<[f64; 3]> {
     let found = stiffarm(&["identify", robot, data, "--json", "-"]).json();
-    let parameters = found["parameters"].as_array().expect("a list").iter();
+    let parameters = list(&found["parameters"]).iter();
     parameters.map(|p| [&p["value"], &p["ci95"][0], &p["ci95"][1]].map(number)).collect()
 }
 
@@ -101,8 +101,7 @@ fn a_saved_diagnosis_predicts() {
         let found = stiffarm(&["predict", robot, &data, "--json", "-"]).json();
         assert_eq!((&found["rows"], &found["inside"]), (&90.into(), &90.into()));
         for key in ["position_rms", "position_max", "rotation_rms"] {
-            let ratio = found["gap"][key].as_f64().expect("a number")
-                / fitted[key].as_f64().expect("a number");
+            let ratio = number(&found["gap"][key]) / number(&fitted[key]);
             // What is written has seven digits.
             assert!((ratio - 1.0).abs() < 1e-3, "{key}: {found:#} {fitted:#}");
         }
@@ -119,16 +118,12 @@ fn a_saved_diagnosis_predicts() {
         "{written}"
     );
     let none = stiffarm(&["predict", &better, &expected, "--json", "-"]).json();
-    assert!(none["gap"]["position_max"].as_f64().expect("a number") < 1e-12, "{none:#}");
+    assert!(number(&none["gap"]["position_max"]) < 1e-12, "{none:#}");
     // Beyond the loads of the diagnosis nothing is judged.
     let heavy = read(&expected).replace("-2000,", "-9000,").replace("1500,", "9000,");
     let heavy = folder.file("heavy.csv", heavy);
-    let out = stiffarm(&["predict", &json, &heavy, "--json", "-", "--quiet"]).good();
-    assert_eq!(
-        (&crate::support::json(&out)["inside"], &crate::support::json(&out)["gap"]),
-        (&0.into(), &Value::Null),
-        "{out}"
-    );
+    let told = stiffarm(&["predict", &json, &heavy, "--json", "-", "--quiet"]).json();
+    assert_eq!((&told["inside"], &told["gap"]), (&0.into(), &Value::Null), "{told}");
 }
 
 /// What goes with the load and gives beyond the table is in a map of the corrected arm.
@@ -139,10 +134,7 @@ fn a_map_is_of_the_corrected_arm() {
     let map = |robot: &str| -> Vec<f64> {
         let of = "--over q2,q3 --of deflection --wrench 0,0,-2000,0,0,0";
         let out = run(&format!("map {robot} {of} --steps 3 --csv -")).good();
-        out.lines()
-            .skip(1)
-            .map(|l| l.rsplit(',').next().expect("a cell").parse().expect("mm"))
-            .collect()
+        Table::of(&out).numbers("deflection[mm]")
     };
     let bare =
         folder.file("bare.toml", read(&better).split("\n[[effect]]").next().expect("a table"));

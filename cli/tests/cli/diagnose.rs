@@ -4,9 +4,7 @@ mod campaign;
 pub mod plant;
 mod sockets;
 
-use serde_json::Value;
-
-use crate::support::{Folder, command, flat, json, read, stiffarm};
+use crate::support::{Folder, command, flat, json, number, read, stiffarm};
 
 const LIN: [&str; 3] =
     ["diagnose", "robots/arms/lin_planar.toml", "robots/data/lin1991_table3.csv"];
@@ -43,7 +41,7 @@ fn the_same_seed_gives_the_same_bytes() {
         let file = folder.name(name);
         let screen = lin(&[&RIVALS[..], &["--json", &file, "--seed", seed]].concat());
         assert!(screen.contains("7.41"), "{screen}");
-        std::fs::read_to_string(file).expect("written")
+        read(&file)
     };
     let (first, again, other) = (json("a", "3"), json("b", "3"), json("c", "4"));
     assert_eq!(first, again);
@@ -68,9 +66,9 @@ fn the_json_is_the_formats() {
     let finding = &found["findings"][0];
     assert_eq!(finding["effect"], "joint_compliance");
     assert_eq!(finding["place"], "joint 1");
-    let mil = |v: &Value| v.as_f64().expect("a number") / 2.54e-5;
-    assert!((mil(&found["gap"]["before"]["position_rms"]) - 7.41).abs() < 5e-3);
-    assert!((mil(&found["gap"]["after"]["position_rms"]) - 0.89).abs() < 5e-3);
+    for (when, mil) in [("before", 7.41), ("after", 0.89)] {
+        assert!((number(&found["gap"][when]["position_rms"]) / 2.54e-5 - mil).abs() < 5e-3);
+    }
     let rivals = json(&lin(&[&RIVALS[..], &["--json", "-"]].concat()));
     assert_eq!(rivals["rivals"][0]["significant"], false);
 }
@@ -84,13 +82,9 @@ fn an_interrupt_has_its_own_exit_status() {
 
     let folder = Folder::new();
     let data = folder.name("run.csv");
-    let effects = ["joint_compliance@joint 2=8e-7", "transmission_error@joint 3:cos 2=0.3 mrad"];
-    let effects = effects.iter().flat_map(|effect| ["--effect", effect]);
-    let run: Vec<&str> = ["simulate", "kuka_kr240", "--poses", "300", "--csv", &data]
-        .into_iter()
-        .chain(effects)
-        .collect();
-    stiffarm(&run).good();
+    let effects = "--effect 'joint_compliance@joint 2=8e-7' \
+                   --effect 'transmission_error@joint 3:cos 2=0.3 mrad'";
+    crate::support::run(&format!("simulate kuka_kr240 --poses 300 --csv {data} {effects}")).good();
     let mut search = command(&["diagnose", "kuka_kr240", &data, "--nested", "--quiet"]);
     let mut search = search.stdout(Stdio::null()).spawn().expect("the binary runs");
     std::thread::sleep(std::time::Duration::from_secs(1));

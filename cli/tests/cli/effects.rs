@@ -2,7 +2,7 @@
 
 use stiffarm_gap::effects::{Entry, Law};
 
-use crate::support::{flat, stiffarm};
+use crate::support::{flat, list, stiffarm};
 use crate::workbench::same;
 
 #[test]
@@ -13,7 +13,7 @@ fn the_page_is_the_catalogue() {
 #[test]
 fn every_effect_is_printed_with_what_it_says() {
     let found = stiffarm(&["effects", "--json"]).json();
-    let found = found.as_array().expect("a list");
+    let found = list(&found);
     let screen = stiffarm(&["effects"]).good();
     let joined = flat(&screen);
     let all = Entry::all();
@@ -21,8 +21,8 @@ fn every_effect_is_printed_with_what_it_says() {
     assert_eq!(found.len(), laws.len());
     for (entry, law) in found.iter().zip(laws) {
         assert_eq!(entry["effect"], law.identifier());
-        assert!(!entry["places"].as_array().expect("a list").is_empty(), "{entry}");
-        assert!(!entry["numbers"].as_array().expect("a list").is_empty(), "{entry}");
+        assert!(!list(&entry["places"]).is_empty(), "{entry}");
+        assert!(!list(&entry["numbers"]).is_empty(), "{entry}");
         let facts = law.facts();
         for said in [facts.reality, facts.signature, facts.confused_with, facts.separated_by] {
             assert!(joined.contains(&said.replace('`', "")), "{said}");

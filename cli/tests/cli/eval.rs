@@ -3,7 +3,7 @@
 use serde_json::Value;
 use stiffarm_kernels::Output;
 
-use crate::support::{Folder, arm, number, run, stiffarm, text};
+use crate::support::{Folder, arm, list, number, read, run, stiffarm};
 
 const KEYS: [&str; 7] =
     ["position", "rotation", "jacobian", "k_c", "compliance", "deflection", "joint_torque"];
@@ -14,14 +14,11 @@ fn json(arguments: &[&str]) -> Value {
 
 /// Row by row, as the format has it, into one column-major block.
 fn block(value: &Value) -> Vec<f64> {
-    let rows: Vec<Vec<f64>> = value
-        .as_array()
-        .expect("an array")
-        .iter()
-        .map(|row| {
-            row.as_array().map_or_else(|| vec![number(row)], |r| r.iter().map(number).collect())
-        })
-        .collect();
+    let row = |row: &Value| match row {
+        Value::Array(row) => row.iter().map(number).collect(),
+        row => vec![number(row)],
+    };
+    let rows: Vec<Vec<f64>> = list(value).iter().map(row).collect();
     (0..rows[0].len()).flat_map(|c| rows.iter().map(move |r| r[c]).collect::<Vec<_>>()).collect()
 }
 
@@ -103,7 +100,7 @@ fn the_file_is_the_same_as_standard_output() {
     let silent = stiffarm(&[&arguments[..], &["--json", &out]].concat()).good();
     assert_eq!(silent, "");
     let printed = stiffarm(&[&arguments[..], &["--json", "-"]].concat()).good();
-    assert_eq!(std::fs::read_to_string(&out).expect("written"), printed);
+    assert_eq!(read(&out), printed);
     assert_eq!(folder.names(), ["state.json"]);
     assert!(!printed.contains("-0.0,") && !printed.contains("-0.0]"), "{printed}");
 }
@@ -113,8 +110,7 @@ fn the_file_is_the_same_as_standard_output() {
 fn a_new_file_is_readable_like_any_other() {
     use std::os::unix::fs::PermissionsExt as _;
     let folder = Folder::new();
-    let (plain, ours) = (folder.file("plain", ""), folder.path("state.json"));
-    let ours = text(&ours);
+    let (plain, ours) = (folder.file("plain", ""), folder.name("state.json"));
     run(&format!("eval jweeg_two_link --q 0,0 --set a1=1 --set a2=1 --json {ours}")).good();
     let mode = |path: &str| std::fs::metadata(path).expect("there").permissions().mode();
     assert_eq!(mode(&ours), mode(&plain));

@@ -4,7 +4,7 @@ use stiffarm_codegen::emit::{FILE_HEAD, RustOptions, rust};
 use stiffarm_codegen::robot::Robot;
 use stiffarm_robots::{ARMS, SYMBOLIC};
 
-use crate::support::{Folder, read, stiffarm};
+use crate::support::{Folder, names, read, stiffarm};
 
 /// The robots of the collection by id.
 fn collection() -> impl Iterator<Item = (&'static str, Robot)> {
@@ -42,7 +42,7 @@ fn what_is_written_can_be_checked() {
 #[test]
 fn a_missing_folder_is_made() {
     let folder = Folder::new();
-    for (emit, out, names) in [
+    for (emit, out, expected) in [
         ("c", "new/firmware", ["ur5.c", "ur5.h"].as_slice()),
         ("rust", "other/src/ur5.rs", &["ur5.rs"]),
     ] {
@@ -54,11 +54,7 @@ fn a_missing_folder_is_made() {
         assert!(of("--check").good().contains("is what ur5 gives"));
         let inner = folder.path(out);
         let inner = if emit == "c" { &inner } else { inner.parent().expect("a folder") };
-        let there =
-            std::fs::read_dir(inner).expect("made").map(|e| e.expect("an entry").file_name());
-        let mut there: Vec<_> = there.collect();
-        there.sort();
-        assert_eq!(there, names);
+        assert_eq!(names(inner), expected);
     }
     let file = folder.file("file", "before");
     let under = folder.name("file/src/ur5.rs");
@@ -84,8 +80,7 @@ fn a_difference_is_shown_with_its_line() {
 
     let differs = |content: &str, message: &str| {
         let file = folder.file("other.rs", content);
-        let run = stiffarm(&["generate", "ur5", "--emit", "rust", "--check", &file]);
-        assert_eq!(run.status, 1);
+        let run = stiffarm(&["generate", "ur5", "--emit", "rust", "--check", &file]).ended(1);
         assert!(run.out.contains(message), "{}", run.out);
     };
     differs("", "found (the file has ended)");

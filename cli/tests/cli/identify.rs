@@ -2,9 +2,8 @@
 
 use nalgebra::Vector6;
 use serde_json::Value;
-use stiffarm_gap::simulate::equilibrium;
 
-use crate::support::{Folder, arm, flat, read, stiffarm};
+use crate::support::{Folder, arm, flat, has, list, moved, number, read, stiffarm};
 
 /// Stiffnesses of the arm that is measured; the robot file has others.
 const TRUE: [f64; 6] = [3.0e6, 5.0e6, 4.2e6, 6.0e5, 5.0e5, 4.0e5];
@@ -29,10 +28,7 @@ fn run(folder: &Folder, poses: usize, loads: &[[f64; 3]]) -> (String, String) {
         let radians = q.map(f64::to_radians);
         for force in loads {
             let wrench = Vector6::new(force[0], force[1], force[2], 0.0, 0.0, 0.0) * 1e3;
-            let at = |w: &Vector6<f64>| {
-                equilibrium(&arm, &radians, w).expect("stable").tool.translation.vector
-            };
-            let moved = (at(&wrench) - at(&Vector6::zeros())) * 1e3;
+            let moved = moved(&arm, &radians, &wrench) * 1e3;
             let cells = q.iter().chain(force).map(f64::to_string);
             let read = moved.iter().map(|x| format!("{x:.2}"));
             rows.push_str(&cells.chain(read).collect::<Vec<_>>().join(","));
@@ -50,8 +46,7 @@ fn a_row_with_a_hole_is_left_out_and_said() {
     let cut = lines[5].rfind(',').expect("cells");
     lines[5].truncate(cut + 1);
     let holed = folder.file("holed.csv", lines.join("\n") + "\n");
-    let run = stiffarm(&["identify", &robot, &holed]);
-    assert_eq!(run.status, 0, "{}", run.err);
+    let run = stiffarm(&["identify", &robot, &holed]).ended(0);
     assert!(run.err.contains("1 row of 60 left out"), "{}", run.err);
     assert!(run.err.contains("line 6, column 12 `dz[mm]`: found an empty cell"), "{}", run.err);
     let quiet = stiffarm(&["--quiet", "identify", &robot, &holed]);
@@ -69,26 +64,22 @@ fn stiffnesses_are_found_and_written() {
     let folder = Folder::new();
     let (robot, data) = run(&folder, 20, &LOADS);
     let found = json(&[&robot, &data]);
-    let parameters = found["parameters"].as_array().expect("a list");
-    for (parameter, k) in parameters.iter().zip(TRUE) {
-        let bound = |at: usize| parameter["stiffness_ci95"][at].as_f64().expect("bounded");
-        let (low, high) = (bound(0), bound(1));
+    for (parameter, k) in list(&found["parameters"]).iter().zip(TRUE) {
+        let [low, high] = [0, 1].map(|end| number(&parameter["stiffness_ci95"][end]));
         // Four of the interval's two standard deviations.
-        let middle = parameter["stiffness"].as_f64().expect("a stiffness");
+        let middle = number(&parameter["stiffness"]);
         assert!((middle - k).abs() < 2.0 * (high - low), "{parameter}");
         assert!(high - low < 0.2 * k, "{parameter}");
         assert_eq!(parameter["status"], "determined");
     }
-    let sizes = |when: &str| found["gap"][when]["position_rms"].as_f64().expect("a size");
+    let sizes = |when: &str| number(&found["gap"][when]["position_rms"]);
     // Rounding to 0.01 mm: 0.0029 mm per coordinate, 0.005 mm over three.
     assert!(sizes("held_out") < 7e-6 && sizes("before") > 2e-5, "{found}");
     let out = folder.name("stiff.toml");
     let screen = stiffarm(&["identify", &robot, &data, "--write-robot", &out]).good();
-    for expected in ["joint 1", "N·m/rad", "with the identified springs, held out", "rms mm"] {
-        assert!(screen.contains(expected), "no `{expected}` in\n{screen}");
-    }
+    has(&screen, &["joint 1", "N·m/rad", "with the identified springs, held out", "rms mm"]);
     let again = json(&[&out, &data]);
-    let rms = again["gap"]["before"]["position_rms"].as_f64().expect("a size");
+    let rms = number(&again["gap"]["before"]["position_rms"]);
     assert!(rms <= sizes("held_out"), "{rms}");
     assert_eq!(stiffarm(&["identify", &robot, &data]).good(), screen);
 }
@@ -98,23 +89,21 @@ fn what_a_hanging_weight_does_not_show_is_said() {
     let folder = Folder::new();
     let (robot, data) = run(&folder, 8, &LOADS[..1]);
     let screen = stiffarm(&["identify", &robot, &data]).good();
-    assert!(screen.contains("has no effect on the rows"), "{screen}");
-    assert!(screen.contains("joint 1: to determine it, pull along ["), "{screen}");
+    has(&screen, &["has no effect on the rows", "joint 1: to determine it, pull along ["]);
     let held = &json(&[&robot, &data])["parameters"][0];
     assert_eq!(held["status"], "held");
     assert!(held["ci95"].is_null() && held["stiffness_ci95"].is_null(), "{held}");
     let out = folder.name("stiff.toml");
     stiffarm(&["--quiet", "identify", &robot, &data, "--write-robot", &out]).good();
-    let toml = std::fs::read_to_string(&out).expect("written");
-    assert!(toml.contains("# joint 1: not identified, as it was."), "{toml}");
-    assert!(toml.contains("stiffness = 3800000.0"), "{toml}");
+    let toml = read(&out);
+    has(&toml, &["# joint 1: not identified, as it was.", "stiffness = 3800000.0"]);
 }
 
 #[test]
 fn a_spring_where_the_file_has_none_is_said_as_such() {
     let folder = Folder::new();
     let (robot, data) = run(&folder, 12, &LOADS);
-    let soft = std::fs::read_to_string(&robot).expect("written");
+    let soft = read(&robot);
     let springs = |line: &&str| !line.trim_start().starts_with("stiffness");
     let rigid: Vec<&str> = soft.lines().filter(springs).collect();
     let rigid = folder.file("rigid.toml", rigid.join("\n"));
@@ -129,8 +118,7 @@ fn the_base_can_be_asked_for() {
     let folder = Folder::new();
     let (robot, data) = run(&folder, 12, &LOADS);
     let screen = stiffarm(&["identify", &robot, &data, "--base"]).good();
-    assert!(screen.contains("base along x") && screen.contains("N/µm"), "{screen}");
-    assert!(screen.contains("not distinguishable from joint 1"), "{screen}");
+    has(&screen, &["base along x", "N/µm", "not distinguishable from joint 1"]);
 }
 
 /// The written robot leaves nothing of what its foundation did.
@@ -150,8 +138,9 @@ fn the_foundation_is_written() {
     let toml = read(&out);
     assert!(toml.contains("id = \"base_compliance\"") && toml.contains("give = "), "{toml}");
     let gap = |robot: &str| -> f64 {
-        let said = stiffarm(&["predict", robot, &founded, "--json", "-"]).json();
-        said["gap"]["position_max"].as_f64().expect("a number")
+        number(
+            &stiffarm(&["predict", robot, &founded, "--json", "-"]).json()["gap"]["position_max"],
+        )
     };
     // The file's six digits, of a foundation that is a part of what gives.
     assert!(gap(&out) < 1e-4 * gap(&robot), "{} {}", gap(&out), gap(&robot));

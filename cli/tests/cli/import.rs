@@ -1,6 +1,6 @@
 //! `stiffarm import`.
 
-use crate::support::{Folder, stiffarm};
+use crate::support::{Folder, has, numbers, read, stiffarm};
 
 #[test]
 fn the_robot_file_can_be_used_at_once() {
@@ -9,7 +9,7 @@ fn the_robot_file_can_be_used_at_once() {
     let run = stiffarm(&["import", "tests/data/urdf/panda.urdf", "--toml", &out]);
     assert_eq!((run.status, run.out.as_str()), (0, ""));
     assert!(run.err.starts_with("note: forward kinematics as in the URDF to "), "{}", run.err);
-    let toml = std::fs::read_to_string(&out).expect("written");
+    let toml = read(&out);
     assert!(toml.starts_with("# Imported by stiffarm from tests/data/urdf/panda.urdf"), "{toml}");
     let printed = stiffarm(&["--quiet", "import", "tests/data/urdf/panda.urdf"]).good();
     assert_eq!(printed, toml);
@@ -18,10 +18,7 @@ fn the_robot_file_can_be_used_at_once() {
         |robot: &str| stiffarm(&["eval", robot, "--q", q, "--gravity", "--json", "-"]).json();
     let (ours, built_in) = (evaluated(&out), evaluated("panda"));
     for key in ["position", "joint_torque"] {
-        let list = |v: &serde_json::Value| -> Vec<f64> {
-            v[key].as_array().expect("a list").iter().filter_map(|x| x.as_f64()).collect()
-        };
-        for (a, b) in list(&ours).iter().zip(list(&built_in)) {
+        for (a, b) in numbers(&ours[key]).iter().zip(numbers(&built_in[key])) {
             assert!((a - b).abs() < 1e-12, "{key}: {a} is not {b}");
         }
     }
@@ -30,8 +27,7 @@ fn the_robot_file_can_be_used_at_once() {
 #[test]
 fn what_a_user_must_know_is_said_and_written() {
     let arguments = ["import", "tests/data/urdf/oblique.urdf", "--tip", "needle"];
-    let run = stiffarm(&arguments);
-    assert_eq!(run.status, 0, "{}", run.err);
+    let run = stiffarm(&arguments).ended(0);
     for said in [
         "`[base]` says where axis 1 stands in link `floor`",
         "left out: link `grip_left` and what hangs on it, 0.1 kg",
@@ -83,9 +79,5 @@ fn a_urdf_is_a_robot() {
     let eval = |robot: &str| stiffarm(&["eval", robot, "--q", "0.3,-0.2", "--json", "-"]);
     let run = eval(&file);
     assert_eq!(run.out, eval(&toml).out, "{}", run.err);
-    assert!(
-        run.err.contains("read as pi/2") && run.err.contains("as in the URDF to"),
-        "{}",
-        run.err
-    );
+    has(&run.err, &["read as pi/2", "as in the URDF to"]);
 }

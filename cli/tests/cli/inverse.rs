@@ -1,20 +1,17 @@
 //! `stiffarm eval --pose`.
 
-use crate::support::stiffarm;
+use crate::support::{has, list, number, numbers, stiffarm};
 
 /// Position and rotation of the tool at joint values.
 fn pose(robot: &str, q: &str, more: &[&str]) -> Vec<f64> {
     let arguments = [&["eval", robot, "--q", q, "--json", "-"], more].concat();
     let at = stiffarm(&arguments).json();
-    let rows = at["rotation"].as_array().expect("rows").iter();
-    let all = rows.chain([&at["position"]]).flat_map(|row| row.as_array().expect("a row"));
-    all.map(|x| x.as_f64().expect("a number")).collect()
+    list(&at["rotation"]).iter().chain([&at["position"]]).flat_map(numbers).collect()
 }
 
 fn solutions(robot: &str, at: &str, more: &[&str]) -> Vec<serde_json::Value> {
     let arguments = [&["eval", robot, "--pose", at, "--json", "-"], more].concat();
-    let found = stiffarm(&arguments).json();
-    found["solutions"].as_array().expect("branches").clone()
+    list(&stiffarm(&arguments).json()["solutions"]).to_vec()
 }
 
 /// Every branch of a table with a closed form and of one that is near it stands at the pose; they differ.
@@ -30,8 +27,7 @@ fn every_branch_stands_at_the_pose() {
         assert_eq!(found.len(), 8);
         let (mut first, mut seen) = (None, Vec::new());
         for branch in found.iter().filter(|branch| branch["reached"] == true) {
-            let q: Vec<String> =
-                branch["q"].as_array().expect("joints").iter().map(ToString::to_string).collect();
+            let q: Vec<String> = list(&branch["q"]).iter().map(ToString::to_string).collect();
             let q = q.join(",");
             let stands = pose(robot, &q, more);
             let expected = first.get_or_insert_with(|| stands.clone());
@@ -72,9 +68,8 @@ fn arms_of_other_joints_stand_at_the_pose() {
         let given: Vec<f64> = q.split(',').map(|x| x.parse().expect("a number")).collect();
         let reached: Vec<_> = found.iter().filter(|branch| branch["reached"] == true).collect();
         let off = |branch: &&&serde_json::Value| {
-            let values = branch["q"].as_array().expect("joints").iter();
-            let each = values.zip(&given).map(|(q, x)| (q.as_f64().expect("a number") - x).abs());
-            each.fold(0.0, f64::max) < 1e-6
+            let values = numbers(&branch["q"]);
+            values.iter().zip(&given).all(|(q, x)| (q - x).abs() < 1e-6)
         };
         assert!(reached.iter().any(|branch| off(&branch)), "{robot}: {found:?}");
         if given.len() == 7 {
@@ -94,12 +89,8 @@ fn limits_turns_and_reach_are_told() {
     let wrist = found.iter().find(within).expect("a branch")["turns"][3].clone();
     assert_eq!(wrist.as_array().map(Vec::len), Some(2), "{wrist}");
     let loaded = solutions("kuka_kr240", "1.6,0.2,1.1,0,90deg,0", &["--wrench", "0,0,-2000,0,0,0"]);
-    let by =
-        |k: usize| (loaded[k]["q"][1].as_f64().unwrap() - found[k]["q"][1].as_f64().unwrap()).abs();
+    let by = |k: usize| (number(&loaded[k]["q"][1]) - number(&found[k]["q"][1])).abs();
     assert!((0..8).any(|k| by(k) > 1e-4));
     let screen = stiffarm(&["eval", "ur5", "--pose", "3,0,0.3,0,90deg,0"]).good();
-    assert!(
-        screen.contains("0 of 8 branches reach the pose") && screen.contains(" mm, "),
-        "{screen}"
-    );
+    has(&screen, &["0 of 8 branches reach the pose", " mm, "]);
 }

@@ -8,7 +8,7 @@ use std::fmt::Write as _;
 
 use stiffarm_gap::rng::{Rng, Stream};
 
-use crate::support::{Folder, flat, number, read, run, stiffarm};
+use crate::support::{Folder, Table, flat, has, list, number, read, run, stiffarm};
 
 const PENDULUM: &str = include_str!("log/pendulum.toml");
 
@@ -42,16 +42,14 @@ fn friction_is_told_with_its_numbers() {
     let log = folder.file("log.csv", rows(HEADER));
     let json = folder.name("log.json");
     let out = run(&format!("diagnose {robot} {log} --torque-side motor --json {json}")).good();
-    assert!(out.contains("Coulomb friction at joint 1"), "{out}");
-    assert!(out.contains("viscous friction at joint 1"), "{out}");
+    has(&out, &["Coulomb friction at joint 1", "viscous friction at joint 1"]);
     assert!(out.contains("torque scale at every joint: with free masses"), "{out}");
     assert!(out.lines().all(|line| line.chars().count() <= 100), "{out}");
     let text = read(&json);
     let found = crate::support::json(&text);
     let value = |effect: &str| {
-        let list = found["findings"].as_array().expect("a list");
-        let finding = list.iter().find(|f| f["effect"] == effect).expect("found");
-        finding["parameters"][0]["value"].as_f64().expect("a number")
+        let finding = list(&found["findings"]).iter().find(|f| f["effect"] == effect);
+        number(&finding.expect("found")["parameters"][0]["value"])
     };
     // The noise of 0.1 N·m over some hundred independent numbers.
     assert!((value("coulomb_friction") - 2.0).abs() < 0.03, "{text}");
@@ -75,13 +73,8 @@ fn others_names_and_damaged_rows_are_read() {
     let mut text = rows("timestamp,actual_q_0,actual_current_0");
     text.push_str("60.00,1e306,1\n60.01,0.1\n");
     let log = folder.file("rtde.csv", text);
-    let run = stiffarm(&["diagnose", &robot, &log, "--map", "rtde"]);
-    assert_eq!(run.status, 0, "{}", run.err);
-    assert!(
-        run.err.contains("2 of 6002 rows are damaged and left out: line 6002, 6003"),
-        "{}",
-        run.err
-    );
+    let run = stiffarm(&["diagnose", &robot, &log, "--map", "rtde"]).ended(0);
+    has(&run.err, &["2 of 6002 rows are damaged and left out: line 6002, 6003"]);
     // A column of currents says itself what it is; its friction is in ampere.
     assert!(run.out.contains("torques, current") && run.out.contains("] A\n"), "{}", run.out);
 }
@@ -102,7 +95,7 @@ fn the_search_is_held_out_where_that_is_asked_for() {
     let page = read(&page);
     assert!(page.contains("<th scope=\"col\">search repeated</th>"), "{page}");
     let found = crate::support::json(&read(&json));
-    let of = |name: &str| found["gap"][0][name].as_f64().expect("a number");
+    let of = |name: &str| number(&found["gap"][0][name]);
     assert!((0.99..1.1).contains(&(of("nested") / of("after"))), "{}", found["gap"]);
     assert!(!run(&format!("diagnose {robot} {log} {only}")).good().contains("search repeated"));
 }
@@ -111,10 +104,7 @@ fn the_search_is_held_out_where_that_is_asked_for() {
 fn degrees_and_slow_logs_are_told() {
     let folder = Folder::new();
     let robot = folder.file("pendulum.toml", PENDULUM);
-    let row = |line: &str| -> Vec<f64> {
-        line.split(',').map(|cell| cell.parse().expect("a number")).collect()
-    };
-    let all: Vec<Vec<f64>> = rows(HEADER).lines().skip(1).map(row).collect();
+    let all = Table::of(&rows(HEADER)).all();
     let file = |name: &str, every: usize, factor: f64| {
         let told = |r: &Vec<f64>| format!("{},{},{}\n", r[0], factor * r[1], r[2]);
         let lines: String = all.iter().step_by(every).map(told).collect();

@@ -1,15 +1,8 @@
 //! `stiffarm map`, and the maps of docs/maps.md.
 
 use nalgebra::Vector6;
-use stiffarm_gap::simulate::equilibrium;
 
-use crate::support::{Folder, arm, read, stiffarm};
-
-/// The fenced commands of the page, as arguments; what stands in quotes is one.
-fn commands(page: &str) -> Vec<Vec<String>> {
-    let lines = page.lines().filter_map(|line| line.strip_prefix("stiffarm "));
-    lines.map(|line| line.split_whitespace().map(str::to_owned).collect()).collect()
-}
+use crate::support::{Folder, Table, arm, arm_of, moved, number, read, stiffarm, words};
 
 /// Every picture of the page is what its command prints.
 #[test]
@@ -17,7 +10,8 @@ fn the_maps_of_the_page_are_those_of_the_commands() {
     let page = read("docs/maps.md");
     let folder = Folder::new();
     let mut maps = 0;
-    for mut arguments in commands(&page) {
+    for line in page.lines().filter_map(|line| line.strip_prefix("stiffarm ")) {
+        let mut arguments = words(line);
         let at = arguments.iter().position(|a| a == "--svg").expect("a picture") + 1;
         let committed = arguments[at].clone();
         assert!(
@@ -25,22 +19,15 @@ fn the_maps_of_the_page_are_those_of_the_commands() {
             "{committed}"
         );
         arguments[at] = folder.name("map.svg");
-        let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
-        let screen = stiffarm(&words).good();
-        let printed = std::fs::read_to_string(&arguments[at]).expect("written");
-        let kept = read(&committed);
-        assert!(printed == kept, "{committed} is not what its command prints: print it anew");
+        let screen = stiffarm(&arguments).good();
+        let is_kept = read(&arguments[at]) == read(&committed);
+        assert!(is_kept, "{committed} is not what its command prints: print it anew");
         for line in screen.lines().filter(|line| line.contains("highest")) {
             assert!(page.contains(line.trim()), "no `{line}` on the page");
         }
         maps += 1;
     }
     assert_eq!(maps, 5);
-}
-
-fn cells(csv: &str) -> Vec<Vec<f64>> {
-    let number = |cell: &str| cell.parse().unwrap_or(f64::NAN);
-    csv.lines().skip(1).map(|line| line.split(',').map(number).collect()).collect()
 }
 
 fn csv(arguments: &[&str]) -> String {
@@ -58,7 +45,7 @@ fn numbers_are_those_of_the_textbook() {
     let (sag, stiffness, nu_p) = (map("deflection"), map("stiffness"), map("nu_p"));
     assert!(sag.starts_with("q2[deg],q3[deg],deflection[mm]\n"), "{sag}");
     assert!(stiffness.starts_with("q2[deg],q3[deg],stiffness[N/um]\n"), "{stiffness}");
-    let (sag, stiffness, nu_p) = (cells(&sag), cells(&stiffness), cells(&nu_p));
+    let [sag, stiffness, nu_p] = [sag, stiffness, nu_p].map(|csv| Table::of(&csv).all());
     assert_eq!((sag.len(), sag[1][0]), (16, 48.666666667));
     for ((sag, stiffness), nu_p) in sag.iter().zip(&stiffness).zip(&nu_p) {
         let q = [0.1, sag[0].to_radians(), sag[1].to_radians(), 0.0, -30_f64.to_radians(), 0.0];
@@ -86,23 +73,16 @@ fn shrink_is_that_of_the_corrected_file() {
     let better = folder.name("better.toml");
     let (robot, run) = ("docs/workbench/arm.toml", "docs/workbench/run.csv");
     let found = stiffarm(&["diagnose", robot, run, "--json", "-", "--write-robot", &better]).json();
-    let after = found["gap"]["after"]["position_rms"].as_f64().expect("a number");
-    let arms = [robot, &better].map(|path| {
-        let text = read(path);
-        let (robot, _) = stiffarm_codegen::robot::Robot::from_toml(&text, path).expect("a robot");
-        stiffarm_gap::robot::arm(&robot).expect("numbers")
-    });
+    let after = number(&found["gap"]["after"]["position_rms"]);
+    let arms = [robot, &better].map(|path| arm_of(&read(path)));
     let w = Vector6::new(0.0, 0.0, -2000.0, 0.0, 0.0, 0.0);
     let over =
         ["--over", "q2,q3", "--at", "q5=45deg", "--wrench", "0,0,-2kN,0,0,0", "--steps", "5"];
     let shrink = csv(&[&[robot, "--of", "shrink", "--data", run], &over[..]].concat());
     assert!(shrink.starts_with("q2[deg],q3[deg],shrink[%]\n"), "{shrink}");
-    for cell in cells(&shrink) {
+    for cell in Table::of(&shrink).all() {
         let q = [0.0, cell[0].to_radians(), cell[1].to_radians(), 0.0, 45_f64.to_radians(), 0.0];
-        let [was, is] = arms.each_ref().map(|arm| {
-            let at = |w: &Vector6<f64>| equilibrium(arm, &q, w).expect("stable").tool;
-            at(&w).translation.vector - at(&Vector6::zeros()).translation.vector
-        });
+        let [was, is] = arms.each_ref().map(|arm| moved(arm, &q, &w));
         let moved = (is - was).norm();
         let expected = 100.0 * (1.0 - after / moved.hypot(after));
         // What is held out has the uncertainty of the fits in it: some per cent of what is left.
@@ -116,7 +96,7 @@ fn sliding_joints_and_free_ones_are_swept() {
     let out = csv(&[&arguments[..], &["--steps", "3"]].concat());
     assert!(out.starts_with("q3[mm],q1[deg],condition\n304.8,-170,"), "{out}");
     let panda = csv(&["iiwa14", "--over", "q2,q4", "--of", "condition", "--steps", "2"]);
-    assert_eq!(cells(&panda).len(), 4);
+    assert_eq!(Table::of(&panda).rows.len(), 4);
 }
 
 /// Where the arm buckles the map is empty, and says so.
@@ -135,7 +115,7 @@ fn unstable_cells_are_empty() {
     let screen =
         stiffarm(&[&arguments[..], &["--wrench", "-60,0,0,0,0,0", "--svg", &svg]].concat()).good();
     assert!(screen.contains("in which the arm is not stable under the load"), "{screen}");
-    let picture = std::fs::read_to_string(&svg).expect("written");
+    let picture = read(&svg);
     roxmltree::Document::parse(&picture).expect("well formed");
     assert!(picture.contains("soft &#60;arm&#62;") && !picture.contains("NaN"), "{picture}");
 }

@@ -1,6 +1,6 @@
 //! Mistakes of a file as a user meets them: named first, mended in the robot file, or given up.
 
-use crate::support::{Folder, flat, read, run};
+use crate::support::{Folder, Table, flat, has, read, run};
 
 /// A UR5 with a tool, measured where nobody knows, by the command itself; its measurements as header and rows.
 fn campaign(folder: &Folder) -> (String, Vec<Vec<String>>) {
@@ -9,13 +9,11 @@ fn campaign(folder: &Folder) -> (String, Vec<Vec<String>>) {
     let given = "--poses 40 --payload 0kg --measure position --noise-position 30um";
     run(&format!("simulate ur5 {given} {zeros} --csv {path}")).good();
     let all = read(&path);
-    let mut lines = all.lines().filter(|line| !line.starts_with('#'));
-    let header = lines.next().expect("a header").to_owned();
-    let cells = |line: &str| line.split(',').map(str::to_owned).collect();
-    (header, lines.map(cells).collect())
+    let Table { names, rows, .. } = Table::of(&all);
+    let owned = |row: Vec<&str>| row.into_iter().map(str::to_owned).collect();
+    (names.join(","), rows.into_iter().map(owned).collect())
 }
 
-/// The column of that name.
 fn column(header: &str, name: &str) -> usize {
     let is = |cell: &str| cell.split('[').next() == Some(name);
     header.split(',').position(is).unwrap_or_else(|| panic!("no {name} in {header}"))
@@ -28,8 +26,7 @@ fn file(folder: &Folder, name: &str, header: &str, rows: &[Vec<String>]) -> Stri
 
 /// What a run prints that may have doubts beside it.
 fn good(line: &str) -> String {
-    let ended = run(line);
-    assert_eq!(ended.status, 0, "{}", ended.err);
+    let ended = run(line).ended(0);
     // Lines are broken where the screen ends.
     flat(&ended.out)
 }
@@ -49,8 +46,7 @@ fn a_coupling_is_named_and_written() {
     let [json, robot] = ["found.json", "better.toml"].map(|name| folder.name(name));
     let outputs = format!("--json {json} --write-robot {robot}");
     let shown = good(&format!("diagnose ur5 {data} {FRAMES} {outputs}"));
-    assert!(shown.contains("Joint 3's reading counts joint 2's angle"), "{shown}");
-    assert!(shown.contains("instead of"), "{shown}");
+    has(&shown, &["Joint 3's reading counts joint 2's angle", "instead of"]);
     let told = crate::support::json(&read(&json));
     let wrong = &told["mistaken"]["mistakes"][0];
     assert_eq!(
@@ -118,8 +114,7 @@ fn rows_of_other_poses_are_no_arm() {
         measured.iter().for_each(|k| row[*k].clone_from(&was[(number + 7) % was.len()][*k]));
     }
     let data = file(&folder, "other.csv", &header, &rows);
-    let ended = run(&format!("diagnose ur5 {data} {FRAMES}"));
-    assert_eq!(ended.status, 3, "{}", ended.err);
+    let ended = run(&format!("diagnose ur5 {data} {FRAMES}")).ended(3);
     let out = flat(&ended.out);
     assert!(out.contains("Nothing explains the position error"), "{out}");
 }

@@ -2,17 +2,10 @@
 
 use serde_json::Value;
 
-use crate::support::{Folder, read, run, stiffarm};
+use crate::support::{Folder, Table, has, list, number, read, run, stiffarm};
 
 /// An elbow above an upright axis, with rotors and friction.
 pub const ELBOW: &str = include_str!("../../../tests/data/elbow.toml");
-
-fn columns(csv: &str) -> (Vec<&str>, Vec<Vec<f64>>) {
-    let mut lines = csv.lines().filter(|line| !line.starts_with('#'));
-    let names = lines.next().expect("a header").split(',').collect();
-    let row = |line: &str| line.split(',').map(|cell| cell.parse().expect("a number")).collect();
-    (names, lines.map(row).collect())
-}
 
 #[test]
 fn a_simulated_log_is_diagnosed() {
@@ -25,8 +18,7 @@ fn a_simulated_log_is_diagnosed() {
     };
     moved(&log);
     let written = read(&log);
-    assert!(written.contains("# effect coulomb_friction@joint 2:coulomb=3e0 (SI)"), "{written}");
-    assert!(written.contains("# torque_side = motor"), "{written}");
+    has(&written, &["# effect coulomb_friction@joint 2:coulomb=3e0 (SI)", "# torque_side = motor"]);
     let found = stiffarm(&["diagnose", &robot, &log, "--quiet"]).good();
     assert!(found.contains("Coulomb friction at joint 2"), "{found}");
     // The same bytes again; without the effect's name where it is withheld.
@@ -49,11 +41,10 @@ fn effects_of_a_robot_file_act_in_a_motion() {
     };
     let without = found(&plain);
     assert_eq!(without["findings"][0]["place"], "joint 2", "{without:#}");
-    let value = without["findings"][0]["parameters"][0]["value"].as_f64().expect("a number");
+    let value = number(&without["findings"][0]["parameters"][0]["value"]);
     assert!((value - 3.0).abs() < 0.3, "{value}");
     let known = found(&robot);
-    let again = known["findings"].as_array().expect("a list").iter();
-    assert!(again.clone().all(|f| f["place"] != "joint 2"), "{known:#}");
+    assert!(list(&known["findings"]).iter().all(|f| f["place"] != "joint 2"), "{known:#}");
     let page = folder.name("check.html");
     let few = "--motion --cases 2 --period 15s --effects viscous_friction";
     let json = run(&format!("withhold {robot} {few} --json - --report {page}")).json();
@@ -70,11 +61,11 @@ fn a_chosen_motion_is_what_simulate_takes() {
     let commands = folder.name("commands.csv");
     let plan = "--for motion --period 8s --harmonics 5 --max-rate 1.2 --max-acceleration 4";
     let screen = run(&format!("poses {robot} {plan} --csv {commands}")).good();
-    assert!(screen.contains("Coulomb friction at joint 3") && screen.contains(" ×"), "{screen}");
-    assert!(screen.contains("rotor inertia at joint 1"), "{screen}");
+    has(&screen, &["Coulomb friction at joint 3", " ×", "rotor inertia at joint 1"]);
     let written = read(&commands);
-    let (names, rows) = columns(&written);
-    assert_eq!(names[..4], ["t[s]", "q_cmd1[rad]", "q_cmd2[rad]", "q_cmd3[rad]"]);
+    let table = Table::of(&written);
+    let rows = table.all();
+    assert_eq!(table.names[..4], ["t[s]", "q_cmd1[rad]", "q_cmd2[rad]", "q_cmd3[rad]"]);
     assert_eq!(rows.len(), 801);
     for row in &rows {
         for (q, [low, high]) in row[1..4].iter().zip([[-2.5, 2.5], [-1.0, 2.0], [-2.0, 2.0]]) {
@@ -86,9 +77,9 @@ fn a_chosen_motion_is_what_simulate_takes() {
     assert!(still(&rows[0]) && still(&rows[800]));
     let exact = "--logged position --rate 100Hz --lost 0% --jitter 0s";
     let log = run(&format!("simulate {robot} {commands} --log - {exact}")).good();
-    let (names, followed) = columns(&log);
-    assert_eq!(names[1..4], ["q1[rad]", "q2[rad]", "q3[rad]"]);
-    for (sent, row) in rows.iter().zip(&followed) {
+    let table = Table::of(&log);
+    assert_eq!(table.names[1..4], ["q1[rad]", "q2[rad]", "q3[rad]"]);
+    for (sent, row) in rows.iter().zip(table.all()) {
         // Knots every 20 ms of motions up to 5/8 Hz, readings of 0.0005 rad: six of them.
         assert!((0..3).all(|j| (sent[1 + j] - row[1 + j]).abs() < 3.5e-3), "{sent:?} {row:?}");
     }
@@ -111,7 +102,7 @@ fn logs_are_withheld() {
     let robot = folder.file("elbow.toml", ELBOW);
     let few = "--motion --cases 6 --period 15s --effects coulomb_friction,viscous_friction";
     let json = run(&format!("withhold {robot} {few} --json -")).json();
-    assert_eq!(json["cases"].as_array().expect("cases").len(), 6);
+    assert_eq!(list(&json["cases"]).len(), 6);
     assert_eq!((&json["runs"], &json["failed"]), (&Value::from(3), &Value::from(0)));
     // How often it is right is the suite's to say: `tests/withheld/logs.rs`.
     assert_eq!(json["single"]["first_named"]["of"], 4, "{json}");

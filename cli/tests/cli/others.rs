@@ -2,7 +2,7 @@
 
 use stiffarm_robots::{ARMS, SYMBOLIC};
 
-use crate::support::{Folder, command, stiffarm, text};
+use crate::support::{Folder, command, list, names, read, stiffarm};
 
 #[test]
 fn every_built_in_robot_is_listed() {
@@ -15,9 +15,7 @@ fn every_built_in_robot_is_listed() {
         let row = out.lines().find(|l| l.starts_with(&format!("{id} "))).expect("a row");
         assert!(row.ends_with(&format!(" {flops}")), "{row}");
     }
-    let of = |id: &str| {
-        found.as_array().expect("a list").iter().find(|r| r["id"] == id).expect("there").clone()
-    };
+    let of = |id: &str| list(&found).iter().find(|r| r["id"] == id).expect("there");
     assert_eq!(of("ur5")["joints"], "6R");
     assert_eq!(of("stanford")["joints"], "2R1P3R");
     assert_eq!(of("panda")["convention"], "modified");
@@ -25,9 +23,9 @@ fn every_built_in_robot_is_listed() {
     assert_eq!(of("jweeg_two_link")["parameters"], serde_json::json!(["a1", "a2"]));
     assert!(of("ur5")["jacobian_flops"].as_u64().expect("a count") <= 119);
     let folder = Folder::new();
-    let file = folder.path("robots.json");
-    assert_eq!(stiffarm(&["robots", "--json", &text(&file)]).good(), "");
-    assert!(std::fs::read_to_string(file).expect("written").ends_with("]\n"));
+    let file = folder.name("robots.json");
+    assert_eq!(stiffarm(&["robots", "--json", &file]).good(), "");
+    assert!(read(&file).ends_with("]\n"));
 }
 
 #[test]
@@ -49,16 +47,10 @@ fn manual_pages_are_written() {
     let folder = Folder::new();
     let to = folder.name("man1");
     assert_eq!(stiffarm(&["man", "--out", &to]).good(), "");
-    let mut names: Vec<String> = std::fs::read_dir(&to)
-        .expect("made")
-        .map(|e| e.expect("an entry").file_name().to_string_lossy().into_owned())
-        .collect();
-    names.sort();
     let pages = COMMANDS.split(' ').map(|c| format!("stiffarm-{c}.1"));
-    let mut expected: Vec<String> = pages.collect();
-    expected.push("stiffarm.1".to_owned());
-    assert_eq!(names, expected);
-    let eval = std::fs::read_to_string(folder.path("man1/stiffarm-eval.1")).expect("written");
+    let expected: Vec<String> = pages.chain(["stiffarm.1".to_owned()]).collect();
+    assert_eq!(names(&folder.path("man1")), expected);
+    let eval = read(&folder.name("man1/stiffarm-eval.1"));
     assert!(eval.contains("wrench") && eval.contains("Examples"), "{eval}");
 }
 

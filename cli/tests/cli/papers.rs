@@ -1,13 +1,11 @@
 //! `stiffarm papers`.
 
-use crate::support::{Folder, read, stiffarm};
+use crate::support::{Folder, has, read, stiffarm};
 
 #[test]
 fn the_built_in_ledger_names_the_misprints() {
     let out = stiffarm(&["papers"]).good();
-    for piece in ["Dumas", "Knapczyk", "Lin", "Jweeg", "Bicchi", "misprint", "reproduced"] {
-        assert!(out.contains(piece), "{piece} is missing");
-    }
+    has(&out, &["Dumas", "Knapczyk", "Lin", "Jweeg", "Bicchi", "misprint", "reproduced"]);
     let found = stiffarm(&["papers", "--json"]).json();
     assert!(found.is_object() || found.is_array());
 }
@@ -47,9 +45,7 @@ fn flexible_kinematics_of_any_arm_are_generated() {
     let check = of(&[&planar[..], &["--check", committed]].concat()).good();
     assert!(check.contains("is what jweeg_two_link gives"), "{check}");
     let latex = of(&["--emit", "latex", "--flexible", "dx,dy,dphi"]).good();
-    for piece in ["flexible pose, published", "\\delta x_{1}", "\\sin(q_{1}+q_{2}+d\\varphi_{1})"] {
-        assert!(latex.contains(piece), "{piece}");
-    }
+    has(&latex, &["flexible pose, published", "\\delta x_{1}", "\\sin(q_{1}+q_{2}+d\\varphi_{1})"]);
     let whole = stiffarm(&["generate", "ur5", "--emit", "rust", "--flexible"]).good();
     assert!(whole.contains("pub fn first_order<S: Scalar>(") && whole.contains("\"dpsi7\""));
 }

@@ -7,7 +7,7 @@ use stiffarm_codegen::robot::{Robot, Value as Cell};
 use stiffarm_kernels::generic::Arm;
 use stiffarm_kernels::{Output, Side};
 
-use crate::support::{Folder, arm, json, read, run};
+use crate::support::{Folder, arm, json, list, number, numbers, read, run};
 
 /// One posture, by Pinocchio.
 struct Sample {
@@ -19,20 +19,16 @@ struct Sample {
     weight_torque: Vec<f64>,
 }
 
-fn numbers(value: &Value) -> Vec<f64> {
-    value.as_array().expect("a list").iter().map(|x| x.as_f64().expect("a number")).collect()
-}
-
 /// A list of rows, column by column.
 fn columns(value: &Value) -> Vec<f64> {
-    let rows: Vec<Vec<f64>> = value.as_array().expect("rows").iter().map(numbers).collect();
+    let rows: Vec<Vec<f64>> = list(value).iter().map(numbers).collect();
     (0..rows[0].len()).flat_map(|c| rows.iter().map(move |row| row[c])).collect()
 }
 
 fn data(robot: &str) -> (Value, Vec<Sample>) {
     let text = read(&format!("tests/data/pinocchio/{robot}.json"));
     let file = json(&text);
-    let samples = file["samples"].as_array().expect("samples").iter().map(|s| Sample {
+    let samples = list(&file["samples"]).iter().map(|s| Sample {
         q: numbers(&s["q"]),
         pose: [columns(&s["rotation"]), numbers(&s["position"])].concat(),
         jacobian: columns(&s["jacobian"]),
@@ -98,9 +94,8 @@ fn imported_robots_agree() {
         let (base, tip) = (word("base"), word("tip"));
         let urdf = word("urdf");
         run(&format!("--quiet import {urdf} --base {base} --tip {tip} --toml {out}")).good();
-        let toml = std::fs::read_to_string(&out).expect("written");
-        let (parsed, warnings) =
-            stiffarm_codegen::robot::Robot::from_toml(&toml, "arm.toml").expect("sound");
+        let toml = read(&out);
+        let (parsed, warnings) = Robot::from_toml(&toml, "arm.toml").expect("sound");
         assert!(warnings.is_empty());
         let arm: Arm = stiffarm_gap::robot::arm(&parsed).expect("numbers");
         // No first row can place an axis that leans.
@@ -134,9 +129,9 @@ fn with_links(arm: &str, links: &Value) -> Robot {
     let toml = stiffarm_robots::arm(arm).expect("built in").toml;
     let (mut robot, _) = Robot::from_toml(toml, arm).expect("sound");
     let exact = |x: &f64| Cell::Number(Number::from_decimal(&format!("{x:?}")).expect("a number"));
-    for (joint, link) in robot.joints.iter_mut().zip(links.as_array().expect("links")) {
+    for (joint, link) in robot.joints.iter_mut().zip(list(links)) {
         let three = |key: &str| numbers(&link[key]).iter().map(exact).collect::<Vec<_>>();
-        let one = |key: &str| Some(exact(&link[key].as_f64().expect("a number")));
+        let one = |key: &str| Some(exact(&number(&link[key])));
         joint.mass = one("mass");
         joint.com = three("com").try_into().expect("three");
         joint.inertia = Some(three("inertia").try_into().expect("six"));
@@ -159,7 +154,7 @@ fn the_equations_of_motion_agree() {
         let file = json(&text);
         let robot = with_links(arm, &file["links"]);
         let textbook: Arm = stiffarm_gap::robot::arm(&robot).expect("numbers");
-        let samples = file["samples"].as_array().expect("samples");
+        let samples = list(&file["samples"]);
         assert_eq!(samples.len(), 20);
         for &output in &outputs {
             let graph = derive(&robot, &[output]);

@@ -1,9 +1,6 @@
 //! `stiffarm poses`.
 
-use nalgebra::Vector6;
-use stiffarm_gap::simulate::equilibrium;
-
-use crate::support::{Folder, arm, read, run, stiffarm};
+use crate::support::{Folder, Table, arm, list, moved, number, read, run, stands, stiffarm};
 
 const PULLS: &str = "--load 0,0,-2kN,0,0,0 --load 1500,-1000,0,0,0,0";
 
@@ -22,32 +19,13 @@ fn measured(plan: &str, softer: &[usize]) -> String {
     let mut arm = arm("kuka_kr240");
     arm.tool = nalgebra::Isometry3::translation(0.1, 0.0, 0.15);
     softer.iter().for_each(|joint| arm.joints[joint - 1].compliance *= 1.25);
-    let mut lines = plan.lines();
-    let remark = lines.next().expect("a remark");
-    let header = lines.next().expect("a header");
-    let names: Vec<&str> = header.split(',').collect();
-    let absolute = names.contains(&"x[mm]");
-    let mut text = format!("{remark}\n{header}\n");
-    for line in lines {
-        let cells: Vec<&str> = line.split(',').collect();
-        let cell = |name: &str| {
-            let at = names.iter().position(|n| *n == name)?;
-            cells[at].parse::<f64>().ok()
-        };
-        let q: Vec<f64> =
-            (1..=6).map(|j| cell(&format!("q{j}[deg]")).expect("a reading").to_radians()).collect();
-        let force = ["fx[N]", "fy[N]", "fz[N]"].map(|name| cell(name).unwrap_or(0.0));
-        let wrench = Vector6::new(force[0], force[1], force[2], 0.0, 0.0, 0.0);
-        let at = |w: &Vector6<f64>| {
-            equilibrium(&arm, &q, w).expect("stable").tool.translation.vector * 1e3
-        };
-        let read = if absolute { at(&wrench) } else { at(&wrench) - at(&Vector6::zeros()) };
-        let filled = cells[..cells.len() - 3].iter().map(|c| (*c).to_owned());
-        let row: Vec<String> = filled.chain(read.iter().map(|x| format!("{x:.6}"))).collect();
-        text.push_str(&row.join(","));
-        text.push('\n');
-    }
-    text
+    let table = Table::of(plan);
+    let read = if table.names.contains(&"x[mm]") { stands } else { moved };
+    let filled = table.filled(|_, q, load| {
+        let at = read(&arm, q, load) * 1e3;
+        [at.x, at.y, at.z].map(|x| format!("{x:.6}"))
+    });
+    format!("{}\n{filled}", table.remarks.join("\n"))
 }
 
 #[test]
@@ -61,15 +39,10 @@ fn a_plan_that_is_filled_in_identifies_the_springs() {
         assert!(empty.iter().all(|row| row.ends_with(",,,")), "{plan}");
         let run = folder.file("run.csv", measured(&plan, &[1, 2, 3, 4, 5, 6]));
         let found = stiffarm(&["identify", &robot, &run, "--json", "-"]).json();
-        for (parameter, file) in found["parameters"]
-            .as_array()
-            .expect("a list")
-            .iter()
-            .zip(arm("kuka_kr240").joints.iter().map(|j| j.compliance))
-        {
-            let value = parameter["value"].as_f64().expect("a number");
+        for (parameter, joint) in list(&found["parameters"]).iter().zip(arm("kuka_kr240").joints) {
+            let softer = number(&parameter["value"]) / joint.compliance;
             // Read to a nanometre.
-            assert!((value / (1.25 * file) - 1.0).abs() < 1e-3, "{purpose}: {parameter}");
+            assert!((softer / 1.25 - 1.0).abs() < 1e-3, "{purpose}: {parameter}");
         }
     }
 }
@@ -87,7 +60,7 @@ fn a_plan_that_separates_does() {
     let finding = &found["findings"][0];
     assert_eq!(finding["effect"], "joint_compliance", "{found}");
     assert_eq!(finding["place"], "joint 2", "{found}");
-    let others = finding["alternatives"].as_array().expect("a list");
+    let others = list(&finding["alternatives"]);
     let bending = |o: &&serde_json::Value| o["effect"] == "link_compliance";
     let at = others.iter().filter(bending).find(|o| o["place"] == "link 2").expect("tried");
     assert_eq!(at["separable"], true, "{others:?}");

@@ -231,8 +231,7 @@ fn joint_values_are_corrected_in_a_table() {
     let table = "# by hand\nname,q1[deg],q2[deg],q3[deg],q4[deg],q5[deg],q6[deg]\n\"a, b\",10,-80,90,-20,60,5\n";
     let path = folder.file("joints.csv", table);
     let arguments = ["compensate", &robot, "--nominal", "ur10", "--program", &path, "--out", "-"];
-    let run = stiffarm(&[&arguments[..], &["--quiet"]].concat());
-    assert_eq!(run.status, 0, "{}", run.err);
+    let run = stiffarm(&[&arguments[..], &["--quiet"]].concat()).ended(0);
     assert!(
         run.out.starts_with("# by hand\nname,q1[deg],q2[deg]")
             && run.out.contains("\n\"a, b\",10,-80.045"),

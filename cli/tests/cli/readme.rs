@@ -1,6 +1,6 @@
 //! README's way from a tracker's file to firmware: its three commands, as they are printed there.
 
-use crate::support::{Folder, read, stiffarm};
+use crate::support::{Folder, number, read, stiffarm};
 use crate::workbench::same;
 
 /// What the commands write, in the folder in which they are called.
@@ -19,11 +19,10 @@ fn three_commands_lead_from_a_tracker_s_file_to_firmware() {
             true => folder.name(word),
             false => word.to_owned(),
         });
-        let words: Vec<String> = words.collect();
-        let run = stiffarm(&words.iter().map(String::as_str).collect::<Vec<_>>());
+        let run = stiffarm(&words.collect::<Vec<String>>());
         assert_eq!(run.status, 0, "{command}: {}", run.err);
     }
-    let made = |name: &str| std::fs::read_to_string(folder.path(name)).expect("written");
+    let made = |name: &str| read(&folder.name(name));
     // The example compiles what the first command writes.
     same("examples/compensation/better.toml", &made("better.toml"));
     // The second one's functions take the side from which joint 1 came: it has play.
@@ -41,7 +40,7 @@ fn eval_takes_the_sides_of_a_corrected_arm() {
     let at = ["eval", "examples/compensation/better.toml", "--q", q, "--json", "-"];
     let position = |sides: &str| -> [f64; 2] {
         let out = stiffarm(&[&at[..], &["--sides", sides]].concat()).json();
-        [0, 1].map(|k| out["position"][k].as_f64().expect("a number"))
+        [0, 1].map(|k| number(&out["position"][k]))
     };
     let ([x, y], [behind_x, behind_y]) = (position("-1,0,0,0,0,0"), position("1,0,0,0,0,0"));
     // The dead band of joint 1, which turns about the base's z.

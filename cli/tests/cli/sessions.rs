@@ -44,7 +44,7 @@ fn sessions_are_as_they_were() {
         let words: Vec<String> = (words.iter().skip(1))
             .map(|word| word.strip_prefix('@').map_or(word.clone(), |name| place.clone() + name))
             .collect();
-        let run = stiffarm(&words.iter().map(String::as_str).collect::<Vec<_>>());
+        let run = stiffarm(&words);
         let printed = match run.status {
             0 => format!("{}{}", run.out, run.err),
             _ => run.refused(),

@@ -1,6 +1,6 @@
 //! `stiffarm simulate`.
 
-use crate::support::{Folder, stiffarm};
+use crate::support::{Folder, Table, has, number, stiffarm};
 
 const SPRING: &str = "joint_compliance@joint 2=3e-6 rad/(N·m)";
 
@@ -15,9 +15,9 @@ fn header(csv: &str) -> &str {
 #[test]
 fn a_file_says_what_it_is() {
     let csv = simulated(&["--effect", SPRING, "--poses", "3"]);
-    let comments: Vec<&str> = csv.lines().take_while(|line| line.starts_with('#')).collect();
+    let table = Table::of(&csv);
     assert_eq!(
-        comments,
+        table.remarks,
         [
             "# UR5, simulated: the payload design, 9 rows at 3 poses",
             "# noise 30.0 um in each coordinate, 0.0873 mrad in each rotation; seed 0",
@@ -25,9 +25,8 @@ fn a_file_says_what_it_is() {
         ]
     );
     assert_eq!(csv.lines().count(), 3 + 1 + 9);
-    let columns: Vec<&str> = header(&csv).split(',').collect();
     for column in ["time[s]", "temperature[degC]", "q6[rad]", "s1", "fz[N]", "mx[Nm]", "rz[rad]"] {
-        assert!(columns.contains(&column), "{columns:?}");
+        table.column(column);
     }
     let blind = simulated(&["--effect", SPRING, "--poses", "3", "--withhold"]);
     assert!(blind.contains("# effects withheld") && !blind.contains("compliance"), "{blind}");
@@ -65,14 +64,11 @@ fn a_files_rows_are_measured_again() {
     let nominal = of(&[]);
     assert!(nominal.contains("12 rows at 12 poses"), "{nominal}");
     let soft = of(&["--effect", "joint_compliance@joint 1=4.14e-5"]);
-    let last = |csv: &str, line: usize| -> f64 {
-        let line = csv.lines().filter(|l| !l.starts_with('#')).nth(line).expect("a row");
-        line.rsplit(',').next().expect("a cell").parse().expect("a number")
-    };
+    let last = |csv: &str| *Table::of(csv).all()[0].last().expect("a cell");
     // Stretched out by 48 in under 1.02 lbf, the spring adds F·L²·C.
     let (force, reach) = (1.02 * 4.4482216152605, 48.0 * 0.0254);
     let added = -force * reach * reach * 4.14e-5;
-    assert!((last(&soft, 1) - last(&nominal, 1) - added).abs() < 1e-3 * added.abs());
+    assert!((last(&soft) - last(&nominal) - added).abs() < 1e-3 * added.abs());
 }
 
 /// A plan as `poses` writes it, nothing measured yet, is a design; a campaign it is not.
@@ -81,14 +77,12 @@ fn a_plan_is_simulated_and_withheld_before_it_is_measured() {
     let (arm, plan) = ("docs/workbench/arm.toml", "docs/workbench/plan.csv");
     let run = stiffarm(&["simulate", arm, plan, "--csv", "-"]).good();
     assert!(run.contains("15 rows at 15 poses"), "{run}");
-    let row = run.lines().filter(|line| !line.starts_with('#')).nth(1).expect("a row");
-    assert!(row.split(',').all(|cell| cell.parse::<f64>().is_ok()), "{row}");
+    assert!(Table::of(&run).all()[0].iter().all(|cell| !cell.is_nan()), "{run}");
     let few = ["withhold", arm, plan, "--cases", "2", "--effects", "joint_compliance", "--quiet"];
     let found = stiffarm(&few).good();
     assert!(found.contains("15 measurements at 15 poses"), "{found}");
 }
 
-/// What is put in is what the diagnosis finds.
 #[test]
 fn the_diagnosis_finds_what_was_put_in() {
     let folder = Folder::new();
@@ -103,9 +97,8 @@ fn the_diagnosis_finds_what_was_put_in() {
         (&first["effect"], &first["place"]),
         (&"joint_compliance".into(), &"joint 2".into())
     );
-    let ends = &first["parameters"][0]["ci95"];
-    let end = |k: usize| ends[k].as_f64().expect("a number");
-    assert!(end(1) - end(0) < 1e-6 && end(0) < 3.3e-6 && end(1) > 2.7e-6, "{ends}");
+    let [low, high] = [0, 1].map(|end| number(&first["parameters"][0]["ci95"][end]));
+    assert!(high - low < 1e-6 && low < 3.3e-6 && high > 2.7e-6, "{first}");
 }
 
 /// A file of balls in sockets has joint values alone, and what was put in is found with a bench and without.
@@ -117,23 +110,14 @@ fn sockets_are_simulated_and_diagnosed() {
     let file = folder.file("sockets.csv", &csv);
     let out = stiffarm(&["diagnose", "ur5", &file]).good();
     assert!(out.contains("108 measurements of points at "), "{out}");
-    assert!(
-        out.contains("joint compliance at joint 2") && out.contains("distance from the point"),
-        "{out}"
-    );
+    has(&out, &["joint compliance at joint 2", "distance from the point"]);
     let pair = "[[pair]]\npoints = [\"socket 0.1\", \"socket 0.2\"]\ndistance = \"1 m\"\nsigma = \"1 m\"\n";
     let bench = folder.file("bench.toml", pair);
     let out = stiffarm(&["diagnose", "ur5", &file, "--bench", &bench]).good();
-    assert!(
-        out.contains("socket 0.1 and socket 0.2") && out.contains("known: 1000.00 ± 1000.00 mm"),
-        "{out}"
-    );
+    has(&out, &["socket 0.1 and socket 0.2", "known: 1000.00 ± 1000.00 mm"]);
     let plates = simulated(&["--measure", "plane", "--poses", "36", "--effect", SPRING]);
     let out = stiffarm(&["diagnose", "ur5", &folder.file("plates.csv", &plates)]).good();
-    assert!(
-        out.contains("joint compliance at joint 2") && out.contains("error of the reading"),
-        "{out}"
-    );
+    has(&out, &["joint compliance at joint 2", "error of the reading"]);
     let again = stiffarm(&["simulate", "ur5", &file, "--csv", "-", "--effect", SPRING]).good();
     assert_eq!(header(&again), header(&csv));
 }

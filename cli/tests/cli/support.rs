@@ -1,9 +1,14 @@
 //! Running the binary.
 
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
+use nalgebra::{Vector3, Vector6};
 use serde_json::Value;
+use stiffarm_codegen::robot::Robot;
+use stiffarm_gap::simulate::equilibrium;
+use stiffarm_kernels::generic::Arm;
 use tempfile::TempDir;
 
 /// How a run ended.
@@ -26,6 +31,13 @@ impl Run {
     #[track_caller]
     pub fn json(self) -> Value {
         json(&self.good())
+    }
+
+    /// A run that must have ended so.
+    #[track_caller]
+    pub fn ended(self, status: i32) -> Run {
+        assert_eq!(self.status, status, "{}", self.err);
+        self
     }
 
     /// The standard error of a run that must have refused its work and printed nothing.
@@ -51,7 +63,7 @@ pub fn data(name: &str) -> String {
 }
 
 /// The binary, in the repository's folder, without a terminal.
-pub fn command(arguments: &[&str]) -> Command {
+pub fn command<S: AsRef<OsStr>>(arguments: &[S]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_stiffarm"));
     command.args(arguments).current_dir(REPOSITORY).stdin(Stdio::null());
     for variable in ["NO_COLOR", "CLICOLOR", "CLICOLOR_FORCE"] {
@@ -61,7 +73,7 @@ pub fn command(arguments: &[&str]) -> Command {
 }
 
 /// Runs it to its end.
-pub fn stiffarm(arguments: &[&str]) -> Run {
+pub fn stiffarm<S: AsRef<OsStr>>(arguments: &[S]) -> Run {
     let output = command(arguments).output().expect("the binary runs");
     let text = |bytes| String::from_utf8(bytes).expect("the output is text");
     Run {
@@ -73,7 +85,7 @@ pub fn stiffarm(arguments: &[&str]) -> Run {
 
 /// The same with the words of a line.
 pub fn run(line: &str) -> Run {
-    stiffarm(&words(line).iter().map(String::as_str).collect::<Vec<_>>())
+    stiffarm(&words(line))
 }
 
 /// A folder of one test, removed with it.
@@ -102,13 +114,26 @@ impl Folder {
 
     /// The names in it, sorted.
     pub fn names(&self) -> Vec<String> {
-        let entries = std::fs::read_dir(self.0.path()).expect("the folder is there");
-        let name = |e: std::io::Result<std::fs::DirEntry>| {
-            e.expect("an entry").file_name().to_string_lossy().into_owned()
-        };
-        let mut names: Vec<String> = entries.map(name).collect();
-        names.sort();
-        names
+        names(self.0.path())
+    }
+}
+
+/// The names in a folder, sorted.
+pub fn names(folder: &Path) -> Vec<String> {
+    let entries = std::fs::read_dir(folder).expect("the folder is there");
+    let name = |e: std::io::Result<std::fs::DirEntry>| {
+        e.expect("an entry").file_name().to_string_lossy().into_owned()
+    };
+    let mut names: Vec<String> = entries.map(name).collect();
+    names.sort();
+    names
+}
+
+/// Every one of these parts must stand in a text.
+#[track_caller]
+pub fn has(text: &str, parts: &[&str]) {
+    for part in parts {
+        assert!(text.contains(part), "no `{part}` in\n{text}");
     }
 }
 
@@ -127,6 +152,18 @@ pub fn json(text: &str) -> Value {
 #[track_caller]
 pub fn number(value: &Value) -> f64 {
     value.as_f64().unwrap_or_else(|| panic!("no number: {value}"))
+}
+
+/// A list of JSON.
+#[track_caller]
+pub fn list(value: &Value) -> &[Value] {
+    value.as_array().unwrap_or_else(|| panic!("no list: {value}"))
+}
+
+/// Its numbers.
+#[track_caller]
+pub fn numbers(value: &Value) -> Vec<f64> {
+    list(value).iter().map(number).collect()
 }
 
 /// Words as a shell has them: what stands in single quotes is one.
@@ -153,7 +190,79 @@ pub fn read(path: &str) -> String {
 
 /// The robot of a robot file of this repository.
 pub fn arm(id: &str) -> stiffarm_kernels::generic::Arm {
-    let text = read(&format!("robots/arms/{id}.toml"));
-    let (robot, _) = stiffarm_codegen::robot::Robot::from_toml(&text, id).expect("it is right");
+    arm_of(&read(&format!("robots/arms/{id}.toml")))
+}
+
+/// The arm of a robot file.
+#[track_caller]
+pub fn arm_of(text: &str) -> Arm {
+    let (robot, _) = Robot::from_toml(text, "arm.toml").expect("it is right");
     stiffarm_gap::robot::arm(&robot).expect("it has numbers for everything")
+}
+
+/// Where the tool of an arm at rest stands under a load, m.
+#[track_caller]
+pub fn stands(arm: &Arm, q: &[f64], load: &Vector6<f64>) -> Vector3<f64> {
+    equilibrium(arm, q, load).expect("stable").tool.translation.vector
+}
+
+/// How far a load moves it, m.
+#[track_caller]
+pub fn moved(arm: &Arm, q: &[f64], load: &Vector6<f64>) -> Vector3<f64> {
+    stands(arm, q, load) - stands(arm, q, &Vector6::zeros())
+}
+
+/// A table as a command writes it: cells by the names of their columns.
+pub struct Table<'t> {
+    /// The remarks above it.
+    pub remarks: Vec<&'t str>,
+    pub names: Vec<&'t str>,
+    pub rows: Vec<Vec<&'t str>>,
+}
+
+impl<'t> Table<'t> {
+    pub fn of(csv: &'t str) -> Table<'t> {
+        let (remarks, lines): (Vec<_>, Vec<_>) = csv.lines().partition(|l| l.starts_with('#'));
+        let mut cells = lines.into_iter().map(|line| line.split(',').collect());
+        Table { remarks, names: cells.next().expect("a header"), rows: cells.collect() }
+    }
+
+    /// The cells below a name; none where the table has not got it.
+    pub fn get(&self, name: &str) -> Option<Vec<&'t str>> {
+        let at = self.names.iter().position(|own| *own == name)?;
+        Some(self.rows.iter().map(|row| row[at]).collect())
+    }
+
+    #[track_caller]
+    pub fn column(&self, name: &str) -> Vec<&'t str> {
+        self.get(name).unwrap_or_else(|| panic!("no {name}: {:?}", self.names))
+    }
+
+    /// NaN where a cell is empty.
+    #[track_caller]
+    pub fn numbers(&self, name: &str) -> Vec<f64> {
+        self.column(name).iter().map(|cell| cell.parse().unwrap_or(f64::NAN)).collect()
+    }
+
+    /// All rows as numbers.
+    pub fn all(&self) -> Vec<Vec<f64>> {
+        let number = |cell: &&str| cell.parse().unwrap_or(f64::NAN);
+        self.rows.iter().map(|row| row.iter().map(number).collect()).collect()
+    }
+
+    /// A plan of a KUKA's displacements or positions with its last three cells filled in, mm, by what `read` has of
+    /// the joint values and the force in each row.
+    pub fn filled(&self, read: impl Fn(usize, &[f64], &Vector6<f64>) -> [String; 3]) -> String {
+        let q: Vec<_> = (1..=6).map(|j| self.numbers(&format!("q{j}[deg]"))).collect();
+        let force = ["fx[N]", "fy[N]", "fz[N]"].map(|name| self.get(name));
+        let mut text = self.names.join(",") + "\n";
+        for (k, row) in self.rows.iter().enumerate() {
+            let q: Vec<f64> = q.iter().map(|of| of[k].to_radians()).collect();
+            let force = force.each_ref().map(|of| of.as_ref().and_then(|of| of[k].parse().ok()));
+            let [x, y, z] = force.map(|of| of.unwrap_or(0.0));
+            let read = read(k, &q, &Vector6::new(x, y, z, 0.0, 0.0, 0.0));
+            text += &format!("{},{}\n", row[..row.len() - 3].join(","), read.join(","));
+        }
+        text
+    }
 }

@@ -1,6 +1,6 @@
 //! `stiffarm withhold`.
 
-use crate::support::{Folder, json, stiffarm};
+use crate::support::{Folder, has, json, stiffarm};
 
 /// One known effect, few cases: quick in any build.
 const SMALL: &str = "withhold bicchi_3r --effects joint_offset,joint_compliance --cases 4 --poses 6 --payload 100N \
@@ -35,8 +35,7 @@ fn the_json_has_every_case_and_the_seed_decides() {
 #[test]
 fn one_screen_says_what_is_found() {
     let out = crate::support::run(SMALL).good();
-    assert!(out.contains("no effect: something is found"), "{out}");
-    assert!(out.contains("the payload design: 18 measurements at 6 poses"), "{out}");
+    has(&out, &["no effect: something is found", "the payload design: 18 measurements at 6 poses"]);
     let lines: Vec<&str> = out.lines().collect();
     assert!(lines.len() <= 24 && lines.iter().all(|l| l.chars().count() <= 120), "{out}");
 }

@@ -3,11 +3,7 @@
 
 use std::path::Path;
 
-use nalgebra::Vector6;
-use stiffarm_gap::simulate::equilibrium;
-use stiffarm_kernels::generic::Arm;
-
-use crate::support::{Folder, REPOSITORY, read, stiffarm, text};
+use crate::support::{Folder, REPOSITORY, Table, arm_of, moved, read, stiffarm, text};
 
 const PAGE: &str = "docs/workbench.md";
 
@@ -68,7 +64,6 @@ fn the_page_shows_what_the_commands_do() {
                 files.push((core::mem::replace(&mut words[at], made.clone()), made));
             }
         }
-        let words: Vec<&str> = words.iter().map(String::as_str).collect();
         let run = stiffarm(&words);
         let (language, shown) = &blocks[k + 1];
         assert_eq!(language, "text", "what {words:?} prints");
@@ -91,50 +86,23 @@ fn the_page_shows_what_the_commands_do() {
     assert_eq!(commands, 7, "{all}");
 }
 
-/// The arm that the page measures: joint 2 has little more than half of its file's stiffness.
-fn real(arm: &Arm) -> Arm {
-    let mut real = arm.clone();
-    let stiffness = [3.5e6, 3.6e6, 4.1e6, 5.2e5, 6.9e5, 4.4e5];
-    for (joint, k) in real.joints.iter_mut().zip(stiffness) {
-        joint.compliance = 1.0 / k;
-    }
-    real
-}
-
 /// Errors of 20 µm that look like any: sines of large multiples, three added.
 fn jitter(row: usize, component: usize) -> f64 {
     let part = |k: usize| (12.9898 * (3 * row + component + 1) as f64 * k as f64 + 0.7).sin();
     2e-5 * (part(78) + part(431) + part(937)) * (2.0_f64 / 3.0).sqrt()
 }
 
-/// The measured file is the plan, filled in by the simulator.
+/// The measured file is the plan, filled in by the simulator: joint 2 has little more than half of its file's stiffness.
 #[test]
 fn the_measurements_of_the_page_are_the_plan_filled_in() {
-    let toml = read("docs/workbench/arm.toml");
-    let (robot, _) = stiffarm_codegen::robot::Robot::from_toml(&toml, "arm.toml").expect("sound");
-    let arm = real(&stiffarm_gap::robot::arm(&robot).expect("numbers"));
+    let mut arm = arm_of(&read("docs/workbench/arm.toml"));
+    let stiffness = [3.5e6, 3.6e6, 4.1e6, 5.2e5, 6.9e5, 4.4e5];
+    arm.joints.iter_mut().zip(stiffness).for_each(|(joint, k)| joint.compliance = 1.0 / k);
     let plan = read("docs/workbench/plan.csv");
-    let mut filled = "# The plan, measured: simulated, with errors of 0.02 mm.\n".to_owned();
-    let mut names: Vec<&str> = Vec::new();
-    for (row, line) in plan.lines().skip(1).enumerate() {
-        if row == 0 {
-            names = line.split(',').collect();
-            filled.push_str(&format!("{line}\n"));
-            continue;
-        }
-        let cells: Vec<&str> = line.split(',').collect();
-        let cell = |name: &str| {
-            let at = names.iter().position(|n| *n == name);
-            at.map_or(0.0, |at| cells[at].parse().expect("a number"))
-        };
-        let q: Vec<f64> = (1..=6).map(|j| f64::to_radians(cell(&format!("q{j}[deg]")))).collect();
-        let wrench = Vector6::new(cell("fx[N]"), cell("fy[N]"), cell("fz[N]"), 0.0, 0.0, 0.0);
-        let at =
-            |w: &Vector6<f64>| equilibrium(&arm, &q, w).expect("stable").tool.translation.vector;
-        let moved = at(&wrench) - at(&Vector6::zeros());
-        let read = (0..3).map(|k| format!("{:.3}", 1e3 * (moved[k] + jitter(row, k))));
-        let kept = cells[..cells.len() - 3].iter().map(|c| (*c).to_owned());
-        filled.push_str(&(kept.chain(read).collect::<Vec<_>>().join(",") + "\n"));
-    }
-    same("docs/workbench/run.csv", &filled);
+    let filled = Table::of(&plan).filled(|row, q, load| {
+        let moved = moved(&arm, q, load);
+        [0, 1, 2].map(|k| format!("{:.3}", 1e3 * (moved[k] + jitter(row + 1, k))))
+    });
+    let remark = "# The plan, measured: simulated, with errors of 0.02 mm.\n";
+    same("docs/workbench/run.csv", &(remark.to_owned() + &filled));
 }

@@ -121,11 +121,10 @@ pub fn diagnose_with(
     if let Some(mended) = &mended {
         options.known.clone_from(&mended.known);
     }
-    if !is_no_arms {
-        if let Some((told, frames)) = mistakes::displaced(arm, data, &options, mistaken.clone()) {
-            mistaken = Some(told);
-            options.nuisances.extend(frames);
-        }
+    let displaced = || mistakes::displaced(arm, data, &options, mistaken.clone());
+    if let Some((told, frames)) = (!is_no_arms).then(displaced).flatten() {
+        mistaken = Some(told);
+        options.nuisances.extend(frames);
     }
     let mut diagnosed = diagnose_as_told(arm, data, &options, progress)?;
     diagnosed.diagnosis.mistaken = mistaken;

@@ -1,6 +1,6 @@
 //! Frames that are not where the robot file has them.
 
-use core::f64::consts::{FRAC_PI_2, PI};
+use core::f64::consts::{FRAC_2_PI, FRAC_PI_2, PI};
 
 use nalgebra::{Isometry3, Point3, Vector3};
 use stiffarm_kernels::Motion;
@@ -25,6 +25,9 @@ pub(super) const FEWEST_POSES: usize = 6;
 
 /// Turns of the closed forms: each is exact where the other is, and together they approach the best of both.
 const TURNS: usize = 40;
+
+/// Of a zero's last step, rad: a hundredth of what makers' marks are good to.
+const LEAST_STEP: f64 = 1e-5;
 
 /// A rigid motion of frames explains nearly all of a gap that is large beside the arm.
 #[derive(Debug)]
@@ -215,6 +218,8 @@ impl<'d> Points<'d> {
     /// The least root mean square of the gap that another zero of a joint leaves, m. The point goes round a circle, or
     /// along a line, with it.
     fn left_of_zero(&self, arm: &Arm, joint: usize, framed: &Framed) -> f64 {
+        let is_revolute = arm.joints[joint].motion == Motion::Revolute;
+        // The gap, and how the point moves with the cosine less one, and with the sine or the way itself.
         let path = |row: usize| {
             let at = |by: f64| {
                 let mut moved = self.rows[row].1.clone();
@@ -224,40 +229,29 @@ impl<'d> Points<'d> {
             };
             let (first, opposite) = (at(0.0)?, at(PI)?);
             let gap = self.measured(row) - first;
-            Some(match arm.joints[joint].motion {
-                Motion::Prismatic => (gap, Vector3::zeros(), (opposite - first) / PI),
-                Motion::Revolute => {
-                    let radius = 0.5 * (first - opposite);
-                    (gap, radius, at(FRAC_PI_2)? - first + radius)
-                }
+            let radius = 0.5 * (first - opposite);
+            Some(match is_revolute {
+                true => [gap, radius, at(FRAC_PI_2)? - first + radius],
+                false => [gap, Vector3::zeros(), -radius * FRAC_2_PI],
             })
         };
         let Some(paths) = (0..self.rows.len()).map(path).collect::<Option<Vec<_>>>() else {
             return f64::INFINITY;
         };
         let left = |by: f64| {
-            let (cosine, sine) = match arm.joints[joint].motion {
-                Motion::Prismatic => (0.0, by),
-                Motion::Revolute => (by.cos() - 1.0, by.sin()),
-            };
-            rms(&paths
-                .iter()
-                .map(|(gap, c, s)| (gap - c * cosine - s * sine).norm())
-                .collect::<Vec<_>>())
+            let (cosine, sine) = if is_revolute { (by.cos() - 1.0, by.sin()) } else { (0.0, by) };
+            let size = |[gap, c, s]: &[Vector3<f64>; 3]| (gap - c * cosine - s * sine).norm();
+            rms(&paths.iter().map(size).collect::<Vec<_>>())
         };
-        if arm.joints[joint].motion == Motion::Prismatic {
-            let sum = |of: fn(&(Vector3<f64>, Vector3<f64>, Vector3<f64>)) -> f64| -> f64 {
-                paths.iter().map(of).sum()
-            };
-            return left(sum(|(gap, _, s)| gap.dot(s)) / sum(|(_, _, s)| s.norm_squared()));
+        if !is_revolute {
+            let along: f64 = paths.iter().map(|[gap, _, s]| gap.dot(s)).sum();
+            return left(along / paths.iter().map(|[_, _, s]| s.norm_squared()).sum::<f64>());
         }
-        let first = (-180..180).map(|degree| f64::from(degree).to_radians());
-        let mut best = first
-            .map(|by| (left(by), by))
-            .min_by(|a, b| a.0.total_cmp(&b.0))
-            .unwrap_or((f64::INFINITY, 0.0));
+        let degrees = (-180..180).map(|degree| f64::from(degree).to_radians());
+        let each = degrees.map(|by| (left(by), by)).min_by(|a, b| a.0.total_cmp(&b.0));
+        let Some(mut best) = each else { return f64::INFINITY };
         let mut step = 0.5_f64.to_radians();
-        while step > 1e-6 {
+        while step > LEAST_STEP {
             for by in [best.1 - step, best.1 + step] {
                 best = if left(by) < best.0 { (left(by), by) } else { best };
             }

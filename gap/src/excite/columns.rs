@@ -4,9 +4,10 @@ use nalgebra::{DMatrix, DVector};
 
 use super::basis::{Basis, norm};
 use super::{Plan, Purpose};
+use crate::effects::{Place, Spot};
 use crate::motion::{Course, Fourier, State};
 use crate::plant::motion::{
-    Law, Logged, MotionError, MotionTruth, MovingPlant, Recording, Spot, Stage, links,
+    Law, Logged, MotionError, MotionTruth, MovingPlant, Recording, Stage, links,
 };
 
 /// Samples per period of the highest harmonic.
@@ -53,8 +54,8 @@ impl Suspects {
         let numbers = wanted.iter().enumerate().flat_map(|(of, (law, spot))| {
             let own = law.numbers.iter().enumerate().filter(|(_, (name, _))| !law.is_form(name));
             own.map(move |(k, (name, _))| {
-                let fastest = match spot {
-                    Spot::Joint(joint) | Spot::Pair(joint, ..) => plan.limits.rate[*joint],
+                let fastest = match spot.place {
+                    Place::Joint(joint) | Place::Pair(joint, ..) => plan.limits.rate[joint - 1],
                     _ => 1.0,
                 };
                 let mut values: Vec<f64> =
@@ -106,8 +107,6 @@ fn form(name: &str, fastest: f64) -> f64 {
 }
 
 impl Columns {
-    /// # Errors
-    /// [`MotionError`]: an arm that moves no mass.
     pub(super) fn of(
         plan: &Plan<'_>,
         suspects: &Suspects,

@@ -16,9 +16,10 @@ use stiffarm_kernels::generic::Arm;
 pub use basis::{Basis, norm};
 use columns::{Columns, Suspects};
 
+use crate::effects::Spot;
 use crate::gap::middle;
 use crate::motion::{Fourier, Limits};
-use crate::plant::motion::{Law, Logged, MotionError, Spot};
+use crate::plant::motion::{Law, Logged, MotionError};
 use crate::rng::{Rng, Stream};
 
 /// Motions of chance that the search begins with.

@@ -48,7 +48,7 @@ fn a_chosen_motion_says_more_than_one_of_chance_within_the_same_limits() {
     assert!(found.value > found.of_chance && found.efficiency > 1.2, "{found:?}");
     // The rotors of joints 1 and 2 are inertias of their links about the same axis: nothing else turns a
     // link about the axis of joint 2, which is square to that of joint 1.
-    let rotor = |joint| ("rotor_inertia", Spot::Joint(joint), "inertia");
+    let rotor = |joint| ("rotor_inertia", Spot::of_joint(joint), "inertia");
     assert_eq!(found.hidden, [rotor(0), rotor(1)]);
     assert_eq!(found.told.len(), 10);
     for k in 0..=5000 {
@@ -68,7 +68,7 @@ fn a_chosen_motion_says_more_than_one_of_chance_within_the_same_limits() {
 fn the_criterion_is_the_determinant() {
     let arm = arm();
     let limits = Limits::of(&arm, &[1.0], &[3.0]).unwrap();
-    let joint = Spot::Joint(1);
+    let joint = Spot::of_joint(1);
     let [coulomb, viscous] =
         ["coulomb_friction", "viscous_friction"].map(|name| (Law::named(name).unwrap(), joint));
     let plan = Plan {
@@ -94,11 +94,11 @@ fn the_criterion_is_the_determinant() {
 #[test]
 fn two_effects_are_told_from_each_other() {
     let pair = ["viscous_friction", "friction_curve"];
-    let [a, b] = pair.map(|name| (Law::named(name).unwrap(), Spot::Joint(1)));
+    let [a, b] = pair.map(|name| (Law::named(name).unwrap(), Spot::of_joint(1)));
     let (found, _) = found(Purpose::Apart([a, b]), 60).unwrap();
     assert!(found.efficiency > 1.2, "{found:?}");
-    let scale = (Law::named("torque_scale").unwrap(), Spot::Joint(0));
-    let same = (Law::named("rotor_inertia").unwrap(), Spot::Joint(0));
+    let scale = (Law::named("torque_scale").unwrap(), Spot::of_joint(0));
+    let same = (Law::named("rotor_inertia").unwrap(), Spot::of_joint(0));
     let error = self::found(Purpose::Apart([scale, same]), 5).unwrap_err().to_string();
     assert!(error.contains("rotor_inertia at joint 1"), "{error}");
 }

@@ -35,7 +35,6 @@ pub(crate) struct Header<'h> {
 }
 
 impl Header<'_> {
-    /// A column of it.
     pub(crate) fn column(&self, index: usize) -> Column {
         Column { number: index + 1, header: self.names[index].clone() }
     }

@@ -185,8 +185,6 @@ impl Mistakes {
         self.kept.is_empty()
     }
 
-    /// # Errors
-    /// All of them, if there are any.
     pub(crate) fn check(self, file: &str) -> Result<(), ReadError> {
         let Mistakes { kept: mut mistakes, more } = self;
         if mistakes.is_empty() {

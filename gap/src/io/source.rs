@@ -33,9 +33,6 @@ pub fn bytes(path: &Path) -> io::Result<Vec<u8>> {
 }
 
 /// What TOML says; `file` is what messages call it, and `found` what it is where it says something else.
-///
-/// # Errors
-/// [`ReadError`], with the line.
 pub(crate) fn from_toml<T: DeserializeOwned>(
     file: &str,
     text: &str,

@@ -77,7 +77,6 @@ impl Separator {
     }
 }
 
-/// One record.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Record {
     /// The line on which it begins, from 1.
@@ -96,15 +95,11 @@ impl Record {
         Some(self.text[start..end].trim_ascii())
     }
 
-    /// All cells.
     pub(crate) fn cells(&self) -> impl ExactSizeIterator<Item = &[u8]> + Clone {
         (0..self.cells).map(|k| self.cell(k).unwrap_or_default())
     }
 
     /// All cells as text.
-    ///
-    /// # Errors
-    /// The first cell that is none.
     pub(crate) fn texts(&self) -> Result<Vec<&str>, Mistake> {
         let each = self.cells().enumerate().map(|(k, cell)| match core::str::from_utf8(cell) {
             Ok(text) => Ok(text.trim()),
@@ -139,9 +134,6 @@ pub(crate) struct Records<R> {
 
 impl<R: BufRead> Records<R> {
     /// Of a source whose separator is known, or found in its first lines.
-    ///
-    /// # Errors
-    /// A source that cannot be read, or is UTF-16.
     pub(crate) fn new(mut source: R, separator: Option<Separator>) -> Result<Records<R>, Mistake> {
         let head = source.fill_buf().map_err(|error| unreadable(&error, 1))?;
         if head.starts_with(&[0xff, 0xfe]) || head.starts_with(&[0xfe, 0xff]) {
@@ -169,9 +161,6 @@ impl<R: BufRead> Records<R> {
     }
 
     /// The next record; `None` at the end.
-    ///
-    /// # Errors
-    /// A source that cannot be read; a quote that is not closed.
     pub(crate) fn read(&mut self) -> Result<Option<&Record>, Mistake> {
         loop {
             if !self.next_line()? {

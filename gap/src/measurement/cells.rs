@@ -8,7 +8,6 @@ use super::{Kind, Row};
 use crate::io::cell::{empty, number, too_large};
 use crate::io::{Convention, Fault, Mistake, Unit, did_you_mean, nearest};
 
-/// A distance that is read.
 const READ: Role = Role::Measured(Family::Distance, 0);
 
 fn quantity(cell: &str, unit: Option<Unit>) -> Result<f64, Fault> {

@@ -63,6 +63,14 @@ pub struct Layout {
     pub bench: Bench,
 }
 
+impl Layout {
+    /// Of an arm with these joints, base to tip, without markers and payloads, and a bench of which nothing is known.
+    pub fn new(motions: impl IntoIterator<Item = Motion>) -> Layout {
+        let motions = motions.into_iter().collect();
+        Layout { motions, readings: true, markers: Vec::new(), payloads: None, bench: Bench::NONE }
+    }
+}
+
 /// A measured point on the tool.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Marker {
@@ -283,13 +291,7 @@ mod tests {
     use super::*;
 
     fn layout() -> Layout {
-        Layout {
-            motions: vec![Motion::Revolute, Motion::Prismatic],
-            readings: true,
-            markers: Vec::new(),
-            payloads: None,
-            bench: Bench::NONE,
-        }
+        Layout::new([Motion::Revolute, Motion::Prismatic])
     }
 
     #[test]

@@ -144,14 +144,8 @@ impl RowOf<'_> {
     fn spring(&self, chain: &mut Chain) {
         let joint = self.joint;
         let [cos, sin] = joint.counterbalance;
-        let mut gear = Gear {
-            compliance: joint.compliance,
-            cubic: joint.cubic,
-            windup: joint.windup * self.side,
-            play: joint.play,
-            zones: joint.zones.clone(),
-            preload: 0.0,
-        };
+        let mut gear = joint.gear.clone();
+        gear.windup *= self.side;
         if gear == Gear::default() {
             return;
         }

@@ -9,11 +9,11 @@ use super::reality::RealBeam;
 pub(super) struct Gear {
     pub(super) compliance: f64,
     pub(super) cubic: f64,
-    /// With the direction's sign.
+    /// In a row with the direction's sign.
     pub(super) windup: f64,
     /// Width of the clearance across which the torque pushes.
     pub(super) play: f64,
-    /// Torques up to which it gives so much more.
+    /// Torques, N·m, up to which it gives so much more.
     pub(super) zones: Vec<(f64, f64)>,
     /// What is added to the torque.
     pub(super) preload: f64,

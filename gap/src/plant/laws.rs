@@ -23,8 +23,8 @@ const LAWS: [(&dyn Effect, Law); 32] = [
     }),
     (&BaseFrame, |arm, t| arm.base_frame += sixfold(t)),
     (&ToolFrame, |arm, t| arm.tool_frame += sixfold(t)),
-    (&JointCompliance, |arm, t| arm.joint(t).compliance += t.value("compliance")),
-    (&JointHardening, |arm, t| arm.joint(t).cubic += t.value("cubic")),
+    (&JointCompliance, |arm, t| arm.joint(t).gear.compliance += t.value("compliance")),
+    (&JointHardening, |arm, t| arm.joint(t).gear.cubic += t.value("cubic")),
     (&BearingCompliance, |arm, t| {
         arm.joint(t).tilt[0] += t.value("tilt_x");
         arm.joint(t).tilt[1] += t.value("tilt_y");
@@ -50,16 +50,16 @@ const LAWS: [(&dyn Effect, Law); 32] = [
         arm.payload += Vector3::new(t.value("x"), t.value("y"), t.value("z"));
     }),
     (&Backlash, |arm, t| arm.joint(t).width += t.value("width")),
-    (&LoadedBacklash, |arm, t| arm.joint(t).play += t.value("width")),
+    (&LoadedBacklash, |arm, t| arm.joint(t).gear.play += t.value("width")),
     (&SoftZone, |arm, t| {
-        arm.joint(t).zones.push((t.value("threshold"), t.value("compliance")));
+        arm.joint(t).gear.zones.push((t.value("threshold"), t.value("compliance")));
     }),
     (&Counterbalance, |arm, t| {
         let [cos, sin] = &mut arm.joint(t).counterbalance;
         *cos += t.value("cos");
         *sin += t.value("sin");
     }),
-    (&FrictionHysteresis, |arm, t| arm.joint(t).windup += t.value("windup")),
+    (&FrictionHysteresis, |arm, t| arm.joint(t).gear.windup += t.value("windup")),
     (&TransmissionError, |arm, t| {
         let terms = t.values.iter().filter_map(|(name, v)| Some((Order::named(name)?, *v)));
         arm.joint(t).orders.extend(terms);

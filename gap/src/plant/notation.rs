@@ -57,8 +57,6 @@ pub(super) fn split(text: &str) -> Result<(&str, Size<'_>), String> {
     Ok((head, Size::Named(named)))
 }
 
-/// # Errors
-/// A name that was there before.
 pub(super) fn once<'n>(
     mut earlier: impl Iterator<Item = &'n str>,
     name: &str,

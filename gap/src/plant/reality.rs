@@ -4,12 +4,13 @@ use nalgebra::{Matrix4, Vector3, Vector6};
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::{Arm, Beam, Convention};
 
+use super::law::Gear;
 use super::laws::{Order, law};
 use super::transform;
 use super::truth::Truth;
 
 /// Everything about the real arm that does not change from row to row.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Reality {
     pub(super) convention: Convention,
     pub(super) gravity: Vector3<f64>,
@@ -44,7 +45,7 @@ pub(super) struct Reality {
 }
 
 /// One row of the table.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct RealJoint {
     pub(super) motion: Motion,
     pub(super) theta: f64,
@@ -63,13 +64,7 @@ pub(super) struct RealJoint {
     pub(super) orders: Vec<(Order, f64)>,
     /// Periods per turn, amplitudes of cosine and sine.
     pub(super) ripples: Vec<[f64; 3]>,
-    pub(super) compliance: f64,
-    pub(super) cubic: f64,
-    pub(super) windup: f64,
-    /// Width of the clearance across which the torque pushes.
-    pub(super) play: f64,
-    /// Torques, N·m, up to which the joint gives so much more.
-    pub(super) zones: Vec<(f64, f64)>,
+    pub(super) gear: Gear,
     /// Cosine and sine of the reading, N·m.
     pub(super) counterbalance: [f64; 2],
     pub(super) tilt: [f64; 2],
@@ -132,47 +127,19 @@ impl Reality {
             a: joint.a,
             alpha: joint.alpha,
             beta: joint.beta,
-            offset: 0.0,
-            ratio: 0.0,
-            lag: 0.0,
-            warming: 0.0,
-            width: 0.0,
-            couplings: Vec::new(),
-            orders: Vec::new(),
-            ripples: Vec::new(),
-            compliance: joint.compliance,
-            cubic: 0.0,
-            windup: 0.0,
-            play: 0.0,
-            zones: Vec::new(),
-            counterbalance: [0.0; 2],
-            tilt: [0.0; 2],
-            wobble: [[0.0; 2]; 2],
+            gear: Gear { compliance: joint.compliance, ..Gear::default() },
             mass: joint.mass,
             com: joint.com,
-            mass_on_chord: 0.0,
             beam: joint.beam.as_ref().map(RealBeam::of),
+            ..RealJoint::default()
         });
         Reality {
             convention: arm.convention,
             gravity: arm.gravity,
-            tilt: Vector3::zeros(),
             joints: joints.collect(),
             tool: transform::of(&arm.tool),
             base: transform::of(&arm.base),
-            base_frame: Vector6::zeros(),
-            tool_frame: Vector6::zeros(),
-            rock: Vector3::zeros(),
-            give: 0.0,
-            wrench_scale: 0.0,
-            payload: Vector3::zeros(),
-            expansion: 0.0,
-            instrument_scale: 0.0,
-            delay: 0.0,
-            drift: Vector6::zeros(),
-            base_slips: Vec::new(),
-            tool_slips: Vec::new(),
-            geometric: 0.0,
+            ..Reality::default()
         }
     }
 
@@ -194,7 +161,7 @@ impl Reality {
         for (j, joint) in reality.joints.iter().enumerate() {
             let beam = joint.beam.unwrap_or_default();
             let totals = [
-                ("compliance of joint", joint.compliance),
+                ("compliance of joint", joint.gear.compliance),
                 ("tilt_x of joint", joint.tilt[0]),
                 ("tilt_y of joint", joint.tilt[1]),
                 ("1/EI of link", beam.bend_y.min(beam.bend_z)),

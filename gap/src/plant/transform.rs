@@ -70,7 +70,6 @@ pub(super) fn rotation_vector(rotation: &Matrix3<f64>) -> Vector3<f64> {
     UnitQuaternion::from_rotation_matrix(&rotation).scaled_axis()
 }
 
-/// The rotation of a rotation vector.
 pub(super) fn rotation_of(vector: &Vector3<f64>) -> Matrix3<f64> {
     Rotation3::from_scaled_axis(*vector).into_inner()
 }

@@ -60,9 +60,6 @@ impl Truth {
     }
 
     /// Whether this arm can have it.
-    ///
-    /// # Errors
-    /// What is wrong with it, in words.
     pub(super) fn check(&self, arm: &Arm) -> Result<(), String> {
         let Truth { effect, place, values } = self;
         if !effect.places(arm).contains(place) {

@@ -112,9 +112,6 @@ pub(super) enum Met {
 }
 
 /// `ours` with the columns of `other` that it has not itself.
-///
-/// # Errors
-/// [`ReadError`]: rows that do not belong together.
 pub(super) fn join<'t>(
     ours: Table<'t>,
     other: &Table<'t>,
@@ -220,7 +217,6 @@ fn timing(table: &Table<'_>, index: usize, shift: f64) -> Column {
     Column { factor: unit.map_or(1.0, |unit| unit.factor), offset: shift, ..column }
 }
 
-/// The time of a row, s.
 fn seconds(table: &Table<'_>, row: &Row<'_>, time: &Column) -> Result<f64, Mistake> {
     if let Some(clock) = Clock::of(&table.text(row, time.index)) {
         return Ok(clock.seconds + time.offset);
@@ -320,7 +316,6 @@ impl Join<'_> {
         })
     }
 
-    /// The cells of it.
     pub(super) fn cells(&self, met: &Met) -> Vec<Cow<'_, str>> {
         let (before, part) = match met {
             Met::Row(row) => return self.kept.row(*row).into_iter().map(Cow::from).collect(),

@@ -176,9 +176,6 @@ impl<'t> Table<'t> {
     }
 
     /// Goes through the rows below the header that hold anything, and counts the others.
-    ///
-    /// # Errors
-    /// What nothing can be read after.
     pub(super) fn each(&self, mut take: impl FnMut(&Row<'_>)) -> Result<usize, Mistake> {
         let mut records = self.text.records(Some(self.separator))?;
         let (mut rows, mut empty) = (0, 0);

@@ -2,11 +2,9 @@
 mod workbook;
 
 use nalgebra::{Rotation3, Vector3};
-use stiffarm_kernels::Motion;
 
 use super::*;
-use crate::measurement::{Kind, Layout, Measurements};
-use crate::observe::Bench;
+use crate::measurement::{Kind, Measurements};
 
 fn import_with(text: &str, map: &str) -> Result<Imported, ReadError> {
     let map = Map::read("map.toml", map)?;
@@ -16,13 +14,7 @@ fn import_with(text: &str, map: &str) -> Result<Imported, ReadError> {
 /// The rows that the measurement reader finds in what is written.
 fn rows(text: &str, map: &str, joints: usize) -> Measurements {
     let imported = import_with(text, map).unwrap_or_else(|e| panic!("{e}"));
-    let layout = Layout {
-        motions: vec![Motion::Revolute; joints],
-        markers: Vec::new(),
-        readings: true,
-        payloads: None,
-        bench: Bench::NONE,
-    };
+    let layout = crate::fixture::layout(joints);
     let read = Measurements::from_bytes("out.csv", imported.csv.as_bytes(), &layout);
     read.unwrap_or_else(|e| panic!("{e}\n{}", imported.csv))
 }
@@ -119,63 +111,9 @@ fn joints_counted_from_zero_and_units_below_the_names() {
 
 #[test]
 fn what_is_wrong_is_said_with_its_place() {
-    let good = "J1,X,Y,Z\n0.1,1,2,3\n";
-    let cases = [
-        ("J1,X,Y,Z\n0.1,one,2,3\n0.1,1,2,3\n", "", "raw.csv: line 2, column 2 `X`: found `one`"),
-        ("J1,X,Y,Z\n0.1,1,2,3\n0.1,1,2\n", "", "raw.csv: line 3: found 3 cells, expected 4"),
-        (
-            "J1,X,Y,Z\n35,8372,1,5,2,3\n",
-            "",
-            "line 2: found 6 cells, expected 4 as in the header: remove",
-        ),
-        (
-            "J1,X,Y,Z\n0.1,1,\"2,3\n0,0,0,0\n",
-            "",
-            "line 2: found a quotation mark that is not closed",
-        ),
-        ("J1;X;Y;Z\n0,1;1.100;2;3\n", "", "found `1.100` where a comma begins the decimals"),
-        (
-            "J1,X,Y,Z\nrad,furlong,mm,mm\n1,1,2,3\n",
-            "",
-            "column 2 `X`: found the unknown unit `furlong`",
-        ),
-        ("X,Y,Z\n1,2,3\n", "", "found no joints"),
-        ("just words\n", "", "found no header"),
-        (
-            "J1,A1,X,Y,Z\n1,1,2,3,4\n",
-            "",
-            "line 1, column 2 `A1`: found `q1` again, expected it once: `q1` stands in column 1 already, as `J1`",
-        ),
-        (
-            "J1,X [kg],Y,Z\n1,1,2,3\n",
-            "",
-            "column 2 `X [kg]`: found `kg`, the unit of a mass, expected a length: write one of m",
-        ),
-        ("J1,X,Y,Z,A,B\n1,1,2,3,4,5\n", "", "found of an orientation A, B, expected its 3 numbers"),
-        (
-            good,
-            "orientation = \"zz\"",
-            "expected rotation_vector, quaternion, matrix, abc, rpy, or three",
-        ),
-        (
-            good,
-            "[columns]\nq1 = \"J2\"\n",
-            "found no column `J2`; did you mean `J1`?, expected the one that is q1 by map.toml",
-        ),
-        (good, "[columns]\nfoo = \"J1\"\n", "found `foo` among the columns"),
-        (good, "seperator = \";\"", "unknown field `seperator`"),
-        (good, "decimal = \"x\"", "expected \".\" or \",\""),
-        (
-            good,
-            "[columns]\nx = \"X\"\ny = \"X\"\n",
-            "found the column `X` as both x and y in map.toml",
-        ),
-        (good, "header = 9", "line 9: found no header"),
-    ];
-    for (text, map, message) in cases {
-        let error = import_with(text, map).map(|i| i.csv).unwrap_err().to_string();
-        assert!(error.contains(message), "no `{message}` in `{error}`");
-    }
+    crate::fixture::says("src/readings/wrong.txt", |text, map| {
+        import_with(text, map).map(|i| i.csv).expect_err(text).to_string()
+    });
     let told = match cfg!(feature = "xlsx") {
         true => "found a workbook that cannot be read",
         false => "found a workbook, expected text",

@@ -59,12 +59,10 @@ pub fn simulate(arm: &Arm, row: &Row, kind: Kind) -> Result<Sim, Unstable> {
     Ok(sim?.seen_by(row.view(kind)))
 }
 
-/// Translation of a twist.
 pub(crate) fn translation(twist: &Vector6<f64>) -> Vector3<f64> {
     twist.fixed_rows::<3>(0).into_owned()
 }
 
-/// Rotation of a twist.
 pub(crate) fn rotation(twist: &Vector6<f64>) -> Vector3<f64> {
     twist.fixed_rows::<3>(3).into_owned()
 }

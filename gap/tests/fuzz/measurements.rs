@@ -7,7 +7,6 @@ use stiffarm_draws::texts::{PIECES_OF_TABLES, answered, mutated};
 use stiffarm_gap::Measurements;
 use stiffarm_gap::io::{MOST_MISTAKES, Map, Mistake, ReadError};
 use stiffarm_gap::measurement::{Layout, Marker};
-use stiffarm_gap::observe::Bench;
 use stiffarm_gap::readings::{By, Sheet, import};
 
 /// Every kind of column, comment, line end and quotes.
@@ -49,7 +48,7 @@ fn layout(joints: usize) -> Layout {
     motions[joints / 2] = Motion::Prismatic;
     let marker = |name: &str, translation| Marker { name: name.to_owned(), translation };
     let markers = vec![marker("smr1", None), marker("smr2", Some([0.1, 0.2, 0.3]))];
-    Layout { motions, markers, readings: true, payloads: None, bench: Bench::NONE }
+    Layout { markers, ..Layout::new(motions) }
 }
 
 /// What is read is finite, what is refused has a place.

@@ -4,13 +4,13 @@
 use core::f64::consts::{FRAC_PI_2, TAU};
 use std::collections::BTreeMap;
 
-use nalgebra::{Isometry3, Matrix3, Vector3};
+use nalgebra::Vector3;
 use stiffarm_gap::log::read::Clock;
 use stiffarm_gap::log::report::{Finding, LogDiagnosis};
 use stiffarm_gap::log::{Log, LogOptions, Run, Signal, TorqueSide, diagnose};
 use stiffarm_gap::rng::{Rng, Stream};
-use stiffarm_kernels::generic::{Arm, Drive, Joint};
-use stiffarm_kernels::{Convention, Motion};
+use stiffarm_kernels::Convention;
+use stiffarm_kernels::generic::{Arm, Joint};
 
 pub const LENGTH: [f64; 2] = [0.7, 0.5];
 pub const MASS: [f64; 2] = [4.0, 3.0];
@@ -18,29 +18,13 @@ const G: f64 = 9.80665;
 
 /// The same as a table: x along link 1 where q is zero, gravity along −y.
 pub fn arm() -> Arm {
-    let joint = |k: usize| Joint {
-        motion: Motion::Revolute,
-        theta: 0.0,
-        d: 0.0,
-        a: LENGTH[k],
-        alpha: 0.0,
-        beta: 0.0,
-        compliance: 0.0,
-        mass: MASS[k],
-        com: Vector3::zeros(),
-        inertia: Matrix3::zeros(),
-        drive: Drive::default(),
-        limits: None,
-        beam: None,
-    };
+    let joint = |k: usize| Joint { a: LENGTH[k], mass: MASS[k], ..Joint::default() };
     Arm {
         name: "planar".to_owned(),
         convention: Convention::Standard,
         joints: vec![joint(0), joint(1)],
-        base: Isometry3::identity(),
-        tool: Isometry3::identity(),
-        tool_rotation_vector: Vector3::zeros(),
         gravity: Vector3::new(0.0, -G, 0.0),
+        ..Arm::default()
     }
 }
 

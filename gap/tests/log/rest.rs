@@ -57,12 +57,17 @@ fn a_droop_that_nothing_explains_is_left_over() {
 /// does that.
 #[test]
 fn a_zero_that_is_wrong_is_left_over() {
+    is_left_over(2, "mean", |q| *q += 0.5 * NOISE);
+}
+
+/// What is done to the readings of a joint is said to be left, and on what it depends.
+fn is_left_over(joint: usize, of: &str, done: impl Fn(&mut f64)) {
     let is_told = |seed: &u64| {
         let mut log = followed(*seed, 0.01, 0.0);
         let q = log.runs[0].signals.get_mut(&Signal::Q).expect("positions");
-        q[1].iter_mut().for_each(|q| *q += 0.5 * NOISE);
+        q[joint - 1].iter_mut().for_each(&done);
         let left = diagnosed(&log, *seed).unexplained.depends_on;
-        left.iter().any(|rest| rest.place == "joint 2" && rest.of == "mean")
+        left.iter().any(|rest| rest.place == format!("joint {joint}") && rest.of == of)
     };
     let flagged = SEEDS.filter(is_told).count();
     assert!(flagged >= 90, "{flagged} of 100");
@@ -71,15 +76,9 @@ fn a_zero_that_is_wrong_is_left_over() {
 /// An encoder with six waves a radian, half as large as the noise: neighbours in angle are alike.
 #[test]
 fn waves_that_nothing_explains_are_left_over() {
-    let is_told = |seed: &u64| {
-        let mut log = followed(*seed, 0.01, 0.0);
-        let q = log.runs[0].signals.get_mut(&Signal::Q).expect("positions");
-        q[0].iter_mut().for_each(|q| *q += 0.5 * NOISE * 2.0_f64.sqrt() * (6.0 * *q).sin());
-        let left = diagnosed(&log, *seed).unexplained.depends_on;
-        left.iter().any(|rest| rest.place == "joint 1" && rest.of == "angle, finely")
-    };
-    let flagged = SEEDS.filter(is_told).count();
-    assert!(flagged >= 90, "{flagged} of 100");
+    is_left_over(1, "angle, finely", |q| {
+        *q += 0.5 * NOISE * 2.0_f64.sqrt() * (6.0 * *q).sin();
+    });
 }
 
 /// 5 of 100, and two standard errors; of noise that forgets at once, and of noise as slow as the motion.

@@ -14,33 +14,12 @@ pub const EXACT: Noise = Noise { position: 0.0, rotation: 0.0 };
 
 /// A revolute row: theta, d, a, alpha.
 pub fn row(theta: f64, d: f64, a: f64, alpha: f64) -> Joint {
-    Joint {
-        motion: Motion::Revolute,
-        theta,
-        d,
-        a,
-        alpha,
-        beta: 0.0,
-        compliance: 0.0,
-        mass: 0.0,
-        com: Vector3::zeros(),
-        inertia: Default::default(),
-        drive: Default::default(),
-        limits: None,
-        beam: None,
-    }
+    Joint { theta, d, a, alpha, ..Joint::default() }
 }
 
 pub fn arm(convention: Convention, joints: Vec<Joint>) -> Arm {
-    Arm {
-        name: "arm".to_owned(),
-        convention,
-        joints,
-        base: Isometry3::identity(),
-        tool: Isometry3::identity(),
-        tool_rotation_vector: Vector3::zeros(),
-        gravity: Vector3::new(0.0, 0.0, -9.80665),
-    }
+    let gravity = Vector3::new(0.0, 0.0, -9.80665);
+    Arm { name: "arm".to_owned(), convention, joints, gravity, ..Arm::default() }
 }
 
 /// A box section without symmetry.
@@ -142,8 +121,7 @@ pub fn frames(base: Isometry3<f64>, tool: Isometry3<f64>) -> Frames {
 
 /// What the reader of a file has to know of an arm on a bench.
 pub fn layout(arm: &Arm, bench: Bench) -> Layout {
-    let motions = arm.joints.iter().map(|j| j.motion).collect();
-    Layout { motions, readings: true, markers: Vec::new(), payloads: None, bench }
+    Layout { bench, ..Layout::new(arm.joints.iter().map(|j| j.motion)) }
 }
 
 /// A joint that is softer than the file says, rad/(N·m).

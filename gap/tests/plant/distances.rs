@@ -10,7 +10,7 @@ use stiffarm_gap::simulate::simulate;
 use stiffarm_gap::{Measurements, Options, diagnose_with};
 use stiffarm_kernels::generic::{Arm, Convention};
 
-use crate::arms::{EXACT, SOFT, loaded, plant, reading, rows, soft_joint_is_found, sprung};
+use crate::arms::{EXACT, SOFT, layout, loaded, plant, reading, rows, soft_joint_is_found, sprung};
 
 const NOISE: Noise = Noise { position: 2e-5, rotation: 0.0 };
 
@@ -55,14 +55,8 @@ fn a_ball_bar_shows_a_soft_joint() {
     let data = plant(&arm, &[SOFT]).measure(&design(&arm, Kind::Distance), NOISE, 1).expect("rows");
     is_found(&found(&arm, &data));
     // As a file it is the same campaign.
-    let layout = stiffarm_gap::measurement::Layout {
-        motions: arm.joints.iter().map(|j| j.motion).collect(),
-        readings: true,
-        markers: Vec::new(),
-        payloads: None,
-        bench: Bench::NONE,
-    };
     let text = csv(&arm, &data, &[]);
+    let layout = layout(&arm, Bench::NONE);
     let read = Measurements::from_bytes("bar.csv", text.as_bytes(), &layout).expect("a file");
     assert_eq!((read.kind, read.poses), (Kind::Distance, data.poses));
     let same = |(a, b): (&Row, &Row)| a.measured == b.measured && a.aim == b.aim;

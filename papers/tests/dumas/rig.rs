@@ -8,7 +8,6 @@ use std::fmt::Write as _;
 use nalgebra::{Isometry3, Matrix3, Point3, Rotation3, UnitQuaternion, Vector3, Vector6};
 use stiffarm_gap::identify::measured::{Answer, Question, identify_measured};
 use stiffarm_gap::measurement::{Layout, Measurements};
-use stiffarm_gap::observe::Bench;
 use stiffarm_gap::rng::{Rng, Stream};
 use stiffarm_gap::simulate::equilibrium;
 use stiffarm_kernels::generic::Arm;
@@ -89,14 +88,7 @@ impl Rig {
             let cells = q.iter().chain(&wrench).chain(&moved).map(|x| format!("{x:e}"));
             writeln!(text, "{}", cells.collect::<Vec<_>>().join(",")).unwrap();
         }
-        let motions = arm.joints.iter().map(|joint| joint.motion).collect();
-        let layout = Layout {
-            motions,
-            readings: true,
-            markers: Vec::new(),
-            payloads: None,
-            bench: Bench::NONE,
-        };
+        let layout = Layout::new(arm.joints.iter().map(|joint| joint.motion));
         Measurements::from_bytes("campaign.csv", text.as_bytes(), &layout).unwrap()
     }
 }

@@ -254,14 +254,7 @@ fn as_read(arm: &Arm, measured: &Measurements, file: &str) -> (Measurements, Str
         row.measured = Vector6::from_fn(|k, _| (row.measured[k] * digits[k]).round() / digits[k]);
     }
     let text = csv(arm, &rounded, &[]);
-    let motions = arm.joints.iter().map(|joint| joint.motion).collect();
-    let layout = Layout {
-        motions,
-        readings: true,
-        markers: Vec::new(),
-        payloads: None,
-        bench: stiffarm_gap::observe::Bench::NONE,
-    };
+    let layout = Layout::new(arm.joints.iter().map(|joint| joint.motion));
     let data = Measurements::from_bytes(file, text.as_bytes(), &layout).expect("our own file");
     (data, text)
 }

@@ -8,7 +8,6 @@ use stiffarm_gap::log::{Log, LogDiagnosis, Model};
 /// The gap on time that played no part in the diagnosis: nothing is fitted to it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Check {
-    /// The files.
     pub files: Vec<String>,
     /// Samples that were read.
     pub samples: usize,

@@ -14,11 +14,9 @@ use crate::host::Host;
 use crate::input::data;
 use crate::terminal::failure::Failure;
 
-/// What the files are.
 pub enum Files {
     /// A joint log, file by file.
     Log(Vec<Part>),
-    /// Measurement files.
     Measurements(Vec<Part>),
     /// Measurement files and the log of the same arm.
     Both(Vec<Part>, Vec<Part>),
@@ -40,9 +38,6 @@ impl Part {
     }
 
     /// The measurements in it; its bytes go into `hash`. A file on disk is gone through and not held.
-    ///
-    /// # Errors
-    /// [`Failure`]: it cannot be read, or its mistakes.
     pub fn measurements(
         &self,
         layout: &Layout,
@@ -74,9 +69,6 @@ fn hashed(path: &Path, hash: &mut Sha256) -> io::Result<()> {
 }
 
 /// The files that are meant: of a folder, as ROS 2 makes one of a bag, those that hold messages.
-///
-/// # Errors
-/// [`Failure`]: a folder that cannot be read, or has none.
 pub fn parts(given: &[PathBuf], host: &Host) -> Result<Vec<Part>, Failure> {
     let mut parts = Vec::new();
     for path in given {
@@ -107,9 +99,6 @@ fn messages(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
 }
 
 /// Opens the files, and knows by their columns what they are.
-///
-/// # Errors
-/// [`Failure`]: a file that cannot be read, options of a log beside files that are none.
 pub fn files(data: &[PathBuf], settings: &Settings, host: &Host) -> Result<Files, Failure> {
     let parts = parts(data, host)?;
     let is_log = |part: &Part| settings.map.is_some() || part.opened.is_log();
@@ -133,17 +122,11 @@ pub fn files(data: &[PathBuf], settings: &Settings, host: &Host) -> Result<Files
 }
 
 /// Whether a file is a log by its columns, or a folder of one.
-///
-/// # Errors
-/// [`Failure`]: it cannot be read.
 pub fn is_log(path: &Path, host: &Host) -> Result<bool, Failure> {
     Ok(parts(&[path.to_owned()], host)?.iter().any(|part| part.opened.is_log()))
 }
 
 /// The log in these files.
-///
-/// # Errors
-/// [`Failure`]: what cannot be read.
 pub fn read(parts: Vec<Part>, motions: &[Motion], names: &Names) -> Result<Log, Failure> {
     let mut log: Option<Log> = None;
     for Part { path, opened } in parts {

@@ -13,7 +13,7 @@ use stiffarm_gap::spring::Spring;
 use stiffarm_kernels::generic::Arm;
 
 use super::super::corrected::made_from;
-use super::super::{Campaign, Found, PredictedLog, Settings};
+use super::super::{Found, PredictedLog, Settings};
 use super::Check;
 use super::files::{self, Part};
 use super::written::Written;
@@ -57,9 +57,6 @@ fn motions(arm: &Arm) -> Vec<stiffarm_kernels::Motion> {
 
 impl Motion {
     /// Reads and diagnoses a log, with the effects of `catalogue`.
-    ///
-    /// # Errors
-    /// [`Failure`]: the log or the options.
     pub(in super::super) fn new(
         settings: &Settings,
         source: Source,
@@ -181,10 +178,6 @@ impl Motion {
 }
 
 impl Found for Motion {
-    fn campaign(&self) -> Option<&Campaign> {
-        None
-    }
-
     fn motion(&self) -> Option<&Motion> {
         Some(self)
     }

@@ -12,7 +12,6 @@ use crate::terminal::failure::Failure;
 
 /// A robot with what was found in it, and what that is.
 pub struct Written {
-    /// The robot.
     pub robot: Robot,
     /// What was put in, line by line.
     pub lines: Vec<String>,
@@ -22,9 +21,6 @@ pub struct Written {
 
 impl Written {
     /// Of a diagnosis.
-    ///
-    /// # Errors
-    /// [`Failure`]: the log tells no newton-metres.
     pub fn of(
         robot: &Robot,
         arm: &Arm,

@@ -18,7 +18,6 @@ const FACTS: [&str; 9] = [
 ];
 
 impl Campaign<'_> {
-    /// The document.
     pub fn certificate(&self, fitted: &Fitted<'_>) -> Document {
         let error = self.errors();
         let mut facts = method::method(self).facts;

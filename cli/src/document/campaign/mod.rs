@@ -30,9 +30,7 @@ use crate::terminal::failure::Failure;
 
 /// What the document of a campaign is made of.
 pub struct Campaign<'a> {
-    /// The diagnosis.
     pub found: &'a Diagnosis,
-    /// The measurements.
     pub data: &'a Measurements,
     /// The arm of the robot file.
     pub arm: &'a Arm,
@@ -60,7 +58,6 @@ pub struct Fitted<'a> {
 }
 
 impl Campaign<'_> {
-    /// The document.
     pub fn document(&self) -> Document {
         let behind = [self.findings(), self.rivals(), self.changes()];
         let report = Report {
@@ -77,9 +74,6 @@ impl Campaign<'_> {
     }
 
     /// What its page embeds; `whole` is the diagnosis as it is written.
-    ///
-    /// # Errors
-    /// [`Failure`] if something in it is no JSON.
     pub fn embedded(
         &self,
         fitted: &Fitted<'_>,

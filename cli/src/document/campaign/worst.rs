@@ -15,7 +15,6 @@ const MOST: usize = 8;
 pub(super) struct Pose {
     /// Its id, or its first line.
     pub name: String,
-    /// Rows.
     pub rows: usize,
     /// Root mean square over its rows, of what is judged, m (rad without positions).
     pub before: f64,

@@ -64,7 +64,6 @@ pub struct Drawn {
 }
 
 impl Drawn {
-    /// Of an experiment.
     pub fn of(experiment: &Experiment<'_>) -> Drawn {
         let Experiment { data, gaps, .. } = experiment;
         let every = every(data.rows.len());

@@ -21,7 +21,6 @@ const MOST: f64 = 16.0;
 pub struct Multiple {
     /// What it is.
     pub label: String,
-    /// The multiple.
     pub value: f64,
     /// Its interval; an end may be infinite.
     pub interval: [f64; 2],

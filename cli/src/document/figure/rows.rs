@@ -68,7 +68,6 @@ impl Columns {
     }
 }
 
-/// The rows of an experiment.
 pub fn rows(experiment: &Experiment<'_>) -> Rows {
     let rows = &experiment.data.rows;
     let mut columns = Columns::default();

@@ -38,7 +38,6 @@ pub struct Scene {
     gap: &'static str,
 }
 
-/// The scene of an experiment.
 pub fn scene(experiment: &Experiment<'_>) -> Scene {
     let rows = &experiment.data.rows;
     let middle = &rows[middle(rows)];

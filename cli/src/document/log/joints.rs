@@ -55,7 +55,6 @@ struct Joint {
 }
 
 impl Drawing {
-    /// Of a diagnosis.
     pub fn of(found: &LogDiagnosis, Fitted { explained, arm }: &Fitted<'_>) -> Drawing {
         let drawn = Drawn { found, explained, arm };
         Drawing {
@@ -65,7 +64,6 @@ impl Drawing {
     }
 }
 
-/// What is drawn.
 struct Drawn<'a> {
     found: &'a LogDiagnosis,
     explained: &'a stiffarm_gap::log::model::Explained,

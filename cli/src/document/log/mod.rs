@@ -32,7 +32,6 @@ independent number. The pictures show the model that is fitted to all of the log
 
 /// What the document of a log is made of.
 pub struct Log<'a> {
-    /// The diagnosis.
     pub found: &'a LogDiagnosis,
     /// The prediction of another log.
     pub check: Option<&'a LogCheck>,
@@ -50,7 +49,6 @@ pub struct Fitted<'a> {
 }
 
 impl Log<'_> {
-    /// The document.
     pub fn document(&self) -> Document {
         let found = self.found;
         let check = self.check.map(|check| Block::Verdict(None, self.checked(check)));
@@ -70,9 +68,6 @@ impl Log<'_> {
     }
 
     /// What its page embeds; `whole` is the diagnosis as it is written.
-    ///
-    /// # Errors
-    /// [`crate::Failure`] if something in it is no JSON.
     pub fn embedded(
         &self,
         fitted: &Fitted<'_>,

@@ -100,7 +100,6 @@ impl Sheet {
         self.wrapped(text, Font::Bold, 0.0);
     }
 
-    /// A name and its value.
     pub(super) fn fact(&mut self, name: &str, value: &str) {
         self.left(name, 0.0);
         self.paragraph(value, VALUES);

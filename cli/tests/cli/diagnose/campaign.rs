@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 use super::plant::{Bench, SLACK, SPRING, ZERO};
-use crate::support::{Run, flat, json, read, stiffarm};
+use crate::support::{Run, flat, has, json, number, numbers, read, stiffarm};
 
 /// A diagnosis that tries few effects: quick in any build.
 fn diagnosed(bench: &Bench, run: &str, extra: &[&str]) -> Run {
@@ -16,14 +16,12 @@ fn diagnosed(bench: &Bench, run: &str, extra: &[&str]) -> Run {
 fn what_is_not_accepted_is_an_exit_status() {
     let bench = Bench::new();
     let run = bench.simulated("run.csv", &["--effect", SPRING]);
-    let good = diagnosed(&bench, &run, &["--accept", "0.2mm", "--json", &bench.path("a.json")]);
-    assert_eq!(good.status, 0, "{}", good.err);
+    diagnosed(&bench, &run, &["--accept", "0.2mm", "--json", &bench.path("a.json")]).ended(0);
     // Three coordinates of 30 µm noise are longer than 10 µm in all but few rows.
-    let bad = diagnosed(&bench, &run, &["--accept", "10um"]);
-    assert_eq!(bad.status, 1, "{}", bad.err);
+    let bad = diagnosed(&bench, &run, &["--accept", "10um"]).ended(1);
     assert!(flat(&bad.out).contains("Not accepted: with the findings 95 % of the held-out rows"));
     let accept = &json(&read(&bench.path("a.json")))["accept"];
-    let reached = accept["position_p95"].as_f64().expect("a number");
+    let reached = number(&accept["position_p95"]);
     // Of the norm of three normal numbers 95 % lie below 2.80 of their deviation; a fifth to either
     // side for 60 rows.
     assert!((reached / (2.80 * 30e-6) - 1.0).abs() < 0.2, "{reached:e}");
@@ -44,10 +42,8 @@ fn the_last_campaign_is_compared_with() {
     let second = ["--effect", softer, "--effect", SLACK, "--seed", "3"];
     let second = bench.simulated("second.csv", &second);
     let out = flat(&diagnosed(&bench, &second, &["--compare", &last]).good());
-    assert!(out.contains("new: backlash at joint 3"), "{out}");
-    assert!(out.contains("no longer found: joint offset at joint 3"), "{out}");
-    assert!(out.contains("joint compliance at joint 2: compliance "), "{out}");
-    assert!(out.contains("] µrad/(N·m), changed"), "{out}");
+    has(&out, &["new: backlash at joint 3", "no longer found: joint offset at joint 3"]);
+    has(&out, &["joint compliance at joint 2: compliance ", "] µrad/(N·m), changed"]);
     assert!(!out.contains("same measurements"), "{out}");
     let page = bench.path("page.html");
     let again = diagnosed(&bench, &first, &["--compare", &last, "--report", &page]).good();
@@ -57,7 +53,7 @@ fn the_last_campaign_is_compared_with() {
         again.contains("µrad/(N·m), no significant change") && !again.contains("new:"),
         "{again}"
     );
-    let page = std::fs::read_to_string(page).expect("written");
+    let page = read(&page);
     assert!(page.contains("<li>both diagnoses are of the same measurements</li>"));
 }
 
@@ -68,24 +64,20 @@ fn the_corrected_arm_is_a_urdf_and_an_mjcf() {
     let [better, urdf, mjcf] = ["better.toml", "arm.urdf", "arm.xml"].map(|name| bench.path(name));
     let extra =
         ["--write-robot", &better, "--write-urdf", &urdf, "--write-mjcf", &mjcf, "--seed", "1"];
-    let written = diagnosed(&bench, &run, &extra);
-    assert_eq!(written.status, 0, "{}", written.err);
+    let written = diagnosed(&bench, &run, &extra).ended(0);
     let said = flat(&written.err);
     let lost =
         "a URDF has no place for the springs of joints 1, 3, backlash at joint 3: --write-robot";
     assert!(said.contains(lost), "{said}");
     assert!(said.contains("an MJCF has no place for backlash at joint 3: "), "{said}");
     // The zero that was found is in the URDF: read back, its tool is that of the corrected robot file.
-    let back = stiffarm(&["import", &urdf]);
-    assert_eq!(back.status, 0, "{}", back.err);
+    let back = stiffarm(&["import", &urdf]).ended(0);
     let back = bench.folder.file("back.toml", back.out);
     let position = |robot: &str| -> Vec<f64> {
         // Neither side of the play.
         let sides = if robot == better { &["--sides", "0,0,0"][..] } else { &[] };
         let at = ["eval", robot, "--q", "0.3,-0.8,1.1", "--json", "-"];
-        let found = stiffarm(&[&at[..], sides].concat()).json();
-        let three = found["position"].as_array().expect("three").iter();
-        three.map(|x| x.as_f64().expect("a number")).collect()
+        numbers(&stiffarm(&[&at[..], sides].concat()).json()["position"])
     };
     let [corrected, back, nominal] = [&better, &back, &bench.robot].map(|robot| position(robot));
     let apart =
@@ -93,8 +85,7 @@ fn the_corrected_arm_is_a_urdf_and_an_mjcf() {
     // Angles have nine digits in a robot file.
     assert!(apart(&corrected, &back) < 1e-8, "{corrected:?} {back:?}");
     assert!(apart(&corrected, &nominal) > 1e-4, "{corrected:?} {nominal:?}");
-    let spring = "stiffness=\"400000\"";
-    assert!(std::fs::read_to_string(&mjcf).expect("written").contains(spring));
+    assert!(read(&mjcf).contains("stiffness=\"400000\""));
 }
 
 #[test]
@@ -105,7 +96,7 @@ fn sessions_are_told_and_each_has_its_base() {
         bench.simulated(&format!("{seed}.csv"), &extra)
     });
     let rows = |path: &str, name: &str, head: bool| -> String {
-        let text = std::fs::read_to_string(path).expect("written");
+        let text = read(path);
         let lines = text.lines().filter(|line| !line.starts_with('#')).enumerate();
         let named = lines.filter(|(k, _)| head || *k > 0).map(|(k, line)| match k {
             0 => format!("session,{line}\n"),
@@ -120,10 +111,7 @@ fn sessions_are_told_and_each_has_its_base() {
     let nuisance = ["--nuisance", "base_frame,tool_frame"];
     let out = flat(&diagnosed(&bench, &both, &nuisance).good());
     assert!(out.contains("in 2 sessions, each with its own frame"), "{out}");
-    assert!(
-        out.contains("base frame in mon at (") && out.contains("base frame in tue at ("),
-        "{out}"
-    );
+    has(&out, &["base frame in mon at (", "base frame in tue at ("]);
     assert!(out.contains("Joint 2 twists"), "{out}");
     // A session that comes again is refused at its line.
     let mixed = rows(&one, "mon", true) + &rows(&two, "tue", false) + &rows(&one, "mon", false);

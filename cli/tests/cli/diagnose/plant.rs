@@ -1,14 +1,13 @@
 //! Diagnoses of plants: arms with effects that only the test knows.
 
 use serde_json::Value;
-use stiffarm_codegen::robot::Robot;
 use stiffarm_gap::measurement::Kind;
 use stiffarm_gap::plant::design::{Design, Shape};
 use stiffarm_gap::plant::{Frames, Noise, Plant, Truth, csv};
 use stiffarm_kernels::generic::Arm;
 
 use super::line;
-use crate::support::{Folder, flat, json, number, stiffarm, text};
+use crate::support::{Folder, arm_of, flat, has, json, list, number, read, stiffarm};
 
 const ROBOT: &str = include_str!("shoulder.toml");
 
@@ -30,7 +29,7 @@ impl Bench {
     }
 
     pub fn path(&self, name: &str) -> String {
-        text(&self.folder.path(name))
+        self.folder.name(name)
     }
 
     /// By the command itself.
@@ -75,18 +74,16 @@ impl Bench {
 
 /// The arm of the robot file.
 fn arm() -> Arm {
-    let (robot, _) = Robot::from_toml(ROBOT, "arm").expect("a robot file");
-    stiffarm_gap::robot::arm(&robot).expect("with numbers")
+    arm_of(ROBOT)
 }
 
 /// `effect at place`, in order.
 fn findings(found: &Value) -> Vec<String> {
-    let all = found["findings"].as_array().expect("a list");
     let name = |f: &Value| {
         let word = |key: &str| f[key].as_str().expect("a word").to_owned();
         format!("{} at {}", word("effect"), word("place"))
     };
-    all.iter().map(name).collect()
+    list(&found["findings"]).iter().map(name).collect()
 }
 
 #[test]
@@ -98,25 +95,24 @@ fn two_effects_are_told_in_one_screen() {
     assert!(lines.len() <= 40 && lines.iter().all(|l| l.chars().count() <= 100), "{out}");
     assert_eq!(lines[0], "shoulder and elbow");
     let whole = flat(&out);
-    for sentence in [
-        "oint 2 twists 6.0",
-        " µrad/(N·m) more than modelled",
-        "he zero of joint 3 is off by 0.80",
-        "; modelling both removes ",
-        " % of the position error, ",
-        "stiffness 1.6",
-    ] {
-        assert!(whole.contains(sentence), "{sentence} in {out}");
-    }
+    has(
+        &whole,
+        &[
+            "oint 2 twists 6.0",
+            " µrad/(N·m) more than modelled",
+            "he zero of joint 3 is off by 0.80",
+            "; modelling both removes ",
+            " % of the position error, ",
+            "stiffness 1.6",
+        ],
+    );
     for number in ["1", "2"] {
         let title = line(&out, &format!("{number}  "));
         assert!(title.contains(&"→") && title.contains(&"less"), "{out}");
         assert!(title.iter().any(|word| word.contains('░')), "{out}");
     }
     assert!(out.contains("joint compliance at joint 2") && out.contains("joint offset at joint 3"));
-    assert!(out.contains("with the findings, held out"), "{out}");
-    assert!(out.contains("Located at  ") && out.contains("Unobservable  "), "{out}");
-    assert!(out.contains("Depends on    "), "{out}");
+    has(&out, &["with the findings, held out", "Located at  ", "Unobservable  ", "Depends on    "]);
 }
 
 #[test]
@@ -124,15 +120,13 @@ fn what_is_found_adds_to_what_the_file_has() {
     let bench = Bench::new();
     // Joint 3 is three times as soft as its file says.
     let run = bench.measured("run.csv", &["joint_compliance@joint 3=6.667e-6"], 10, false);
-    let text = std::fs::read_to_string(&run).expect("there");
+    let text = read(&run);
     let lines = text.lines().enumerate();
     let longer = lines.map(|(k, l)| format!("{l},{}\n", if k == 0 { "temprature" } else { "21" }));
     let run = bench.folder.file("run.csv", longer.collect::<String>());
     let noise = ["--noise-position", "20um", "--noise-rotation", "0.04mrad", "--folds", "4"];
     let out = bench.diagnose(&bench.robot, &run, &noise);
-    assert!(out.contains("held out in 4 folds of poses"), "{out}");
-    assert!(out.contains("noise, as given"), "{out}");
-    assert!(out.contains("joint compliance at joint 3"), "{out}");
+    has(&out, &["held out in 4 folds of poses", "noise, as given", "joint compliance at joint 3"]);
     let said = flat(&out);
     let after = |begins: &str| {
         let found = said.split(begins).nth(1).unwrap_or_else(|| panic!("no {begins} in {out}"));
@@ -151,8 +145,7 @@ fn unknown_frames_are_fitted_along() {
     let run = bench.measured("run.csv", &[SPRING], 2, true);
     let frames = ["--nuisance", "base_frame,tool_frame"];
     let out = bench.diagnose(&bench.robot, &run, &frames);
-    assert!(out.contains("with unknown frames fitted"), "{out}");
-    assert!(out.contains("Co-estimated  base frame at ("), "{out}");
+    has(&out, &["with unknown frames fitted", "Co-estimated  base frame at ("]);
     let found = bench.json(&bench.robot, &run, &frames);
     assert_eq!(findings(&found), ["joint_compliance at joint 2"]);
     assert_eq!(found["nuisances"][1]["name"], "tool_frame");
@@ -160,7 +153,7 @@ fn unknown_frames_are_fitted_along() {
     // Tool and base go into the robot file: nothing is unknown then.
     let better = bench.path("better.toml");
     bench.diagnose(&bench.robot, &run, &[&frames[..], &["--write-robot", &better]].concat());
-    let written = std::fs::read_to_string(&better).expect("written");
+    let written = read(&better);
     for frame in ["tool_frame", "base_frame"] {
         assert!(written.contains(&format!("#   {frame}, co-estimated: at [")), "{written}");
     }
@@ -175,15 +168,12 @@ fn the_corrected_robot_has_no_gap_left() {
     let better = bench.folder.file("better.toml", "before");
     let first = bench.diagnose(&bench.robot, &run, &["--write-robot", &better]);
     assert!(first.contains("Findings"), "{first}");
-    let written = std::fs::read_to_string(&better).expect("written");
+    let written = read(&better);
     assert!(written.starts_with("# Corrected by stiffarm "), "{written}");
-    assert!(written.contains("#   joint_compliance at joint 2: compliance "), "{written}");
-    assert!(written.contains(", in stiffness of joint 2\n"), "{written}");
+    has(&written, &["#   joint_compliance at joint 2: compliance ", ", in stiffness of joint 2\n"]);
     assert!(written.contains(", in theta of joint 3\n"), "{written}");
     // What was not found stays as it was, exact angles and all.
-    for kept in ["alpha = \"pi/2\"", "theta = \"-pi/2\"", "stiffness = 400000.0", "\"pi/4\"]"] {
-        assert!(written.contains(kept), "{kept} in {written}");
-    }
+    has(&written, &["alpha = \"pi/2\"", "theta = \"-pi/2\"", "stiffness = 400000.0", "\"pi/4\"]"]);
     let again = bench.json(&better, &run, &[]);
     assert_eq!(findings(&again), [""; 0]);
     assert_eq!(again["unexplained"]["present"], false);
@@ -196,7 +186,7 @@ fn the_corrected_robot_has_no_gap_left() {
 
     let twice = bench.path("twice.toml");
     bench.diagnose(&bench.robot, &run, &["--write-robot", &twice]);
-    assert_eq!(std::fs::read_to_string(&twice).expect("written"), written);
+    assert_eq!(read(&twice), written);
     assert_eq!(bench.diagnose(&bench.robot, &run, &["--write-robot", &twice, "--quiet"]), "");
     assert_eq!(bench.diagnose(&bench.robot, &run, &["--write-robot", "-"]), written);
 }
@@ -207,9 +197,8 @@ fn what_the_table_cannot_hold_is_an_effect() {
     let run = bench.measured("run.csv", &[SLACK], 5, false);
     let better = bench.path("better.toml");
     bench.diagnose(&bench.robot, &run, &["--write-robot", &better]);
-    let written = std::fs::read_to_string(&better).expect("written");
-    assert!(written.contains("#   backlash at joint 3: width "), "{written}");
-    assert!(written.contains("], in an [[effect]]\n"), "{written}");
+    let written = read(&better);
+    has(&written, &["#   backlash at joint 3: width ", "], in an [[effect]]\n"]);
     // A diagnosis is a robot to every command: the one that it found.
     let json = bench.path("found.json");
     bench.diagnose(&bench.robot, &run, &["--json", &json]);

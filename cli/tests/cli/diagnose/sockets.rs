@@ -5,7 +5,7 @@
 
 use serde_json::Value;
 
-use crate::support::{self, stiffarm};
+use crate::support::{self, list, number, stiffarm};
 
 fn file(name: &str) -> String {
     support::data(&format!("sockets/panda_1/{name}"))
@@ -28,14 +28,14 @@ fn a_panda_is_calibrated_by_sockets() {
             let found = stiffarm(&run.concat()).json();
             let held_out = &found["gap"]["after"];
             let gap = if at == other { held_out } else { &found["check"]["all"][1] };
-            let rms = 1e3 * gap["position_rms"].as_f64().expect("a number");
+            let rms = 1e3 * number(&gap["position_rms"]);
             assert!(rms < limit, "{at} to {other}: {rms} mm");
             // The sockets of a place are 50 mm apart, printed to a tenth of a millimetre; those of back-high come out
             // 0.43 mm too near.
-            let apart = found["pairs"][0]["fitted"].as_f64().expect("a number");
+            let apart = number(&found["pairs"][0]["fitted"]);
             assert!((apart - 0.05).abs() < 5e-4, "{at}: {apart}");
             let zero = |f: &Value| f["effect"] == "geometry";
-            assert!(found["findings"].as_array().expect("a list").iter().any(zero), "{at}");
+            assert!(list(&found["findings"]).iter().any(zero), "{at}");
         }
     }
 }

@@ -3,15 +3,11 @@
 use std::process::Command;
 
 use super::{HEADER, PENDULUM, rows};
-use crate::support::{Folder, read, stiffarm, words};
+use crate::support::{Folder, Table, read, stiffarm, words};
 
 /// A servo that comes 50 ms late.
 fn servo(rows: &str) -> String {
-    let row = |line: &str| -> [f64; 2] {
-        let mut cells = line.split(',').map(|cell| cell.parse().expect("a number"));
-        [0, 1].map(|_| cells.next().expect("a cell"))
-    };
-    let all: Vec<[f64; 2]> = rows.lines().skip(1).map(row).collect();
+    let all = Table::of(rows).all();
     let late =
         all.iter().zip(&all[5..]).map(|(was, now)| format!("{},{},{}\n", now[0], was[1], now[1]));
     format!("t,q1,q_cmd1\n{}", late.collect::<String>())

@@ -1,9 +1,7 @@
 //! What is made of a log's diagnosis: the robot file, simulators' files, the check of another log, the page.
 
-use stiffarm_codegen::robot::Robot;
-
 use super::{HEADER, PENDULUM, rows};
-use crate::support::{Folder, json, number, read, run, stiffarm};
+use crate::support::{Folder, arm_of, has, json, list, number, read, run, stiffarm};
 
 /// The pendulum's log, the second half of it apart; both say where torques are measured.
 fn logs(folder: &Folder) -> [String; 2] {
@@ -34,8 +32,7 @@ fn a_written_robot_does_what_is_announced() {
     assert!((0.95..1.05).contains(&ratio), "{ratio}");
     assert_eq!(again["findings"].as_array().map(Vec::len), Some(0), "{again:#}");
     // The file is what was simulated: 3 kg at 0.8 m, friction of 2 N·m and 0.7 N·m·s/rad.
-    let (written, _) = Robot::from_toml(&read(&better), "better.toml").expect("a robot");
-    let arm = stiffarm_gap::robot::arm(&written).expect("numbers");
+    let arm = arm_of(&read(&better));
     let is = arm.inverse_dynamics(&[0.3], &[0.5], &[2.0])[0];
     let was = 1.92 * 2.0 + 3.0 * 0.8 * 9.80665 * 0.3_f64.cos() + 2.0 + 0.7 * 0.5;
     assert!((is - was).abs() < 0.05, "{is}, not {was}: {}", read(&better));
@@ -57,8 +54,7 @@ fn simulators_get_what_they_hold() {
     let [mjcf, urdf] = ["better.xml", "better.urdf"].map(|name| folder.name(name));
     let only = "coulomb_friction,viscous_friction,torque_offset";
     let found = ["diagnose", &robot, &log, "--effects", only, "--write-mjcf", &mjcf];
-    let run = stiffarm(&[&found[..], &["--write-urdf", &urdf, "--quiet"]].concat());
-    assert_eq!(run.status, 0, "{}", run.err);
+    stiffarm(&[&found[..], &["--write-urdf", &urdf, "--quiet"]].concat()).ended(0);
     for (file, names) in
         [(&mjcf, ["frictionloss=\"", "damping=\""]), (&urdf, ["friction=\"", "damping=\""])]
     {
@@ -87,8 +83,8 @@ fn an_effect_of_motion_is_part_of_the_model() {
     stiffarm(&[&["diagnose", &knows, &log], &only[..], &[&known]].concat()).good();
     let effects = |path: &str| -> Vec<String> {
         let found = json(&read(path));
-        let list = found["findings"].as_array().expect("a list").clone();
-        list.iter().map(|f| f["effect"].as_str().expect("a name").to_owned()).collect()
+        let effect = |f: &serde_json::Value| f["effect"].as_str().expect("a name").to_owned();
+        list(&found["findings"]).iter().map(effect).collect()
     };
     assert!(effects(&plain).contains(&"coulomb_friction".to_owned()));
     assert_eq!(effects(&known), ["viscous_friction"]);
@@ -132,14 +128,15 @@ fn a_page_holds_everything() {
     let page = folder.name("log.html");
     stiffarm(&["diagnose", &robot, &log, "--check", &other, "--report", &page, "--quiet"]).good();
     let page = read(&page);
-    for part in [
-        "What each finding contributes",
-        "Torque against time",
-        "Friction against speed",
-        "with nothing fitted",
-    ] {
-        assert!(page.contains(part), "{part}");
-    }
+    has(
+        &page,
+        &[
+            "What each finding contributes",
+            "Torque against time",
+            "Friction against speed",
+            "with nothing fitted",
+        ],
+    );
     // Nothing of it stands elsewhere.
     for away in ["http://", "https://", "src=", "@import"] {
         assert!(!page.contains(away), "{away}");
@@ -150,7 +147,7 @@ fn a_page_holds_everything() {
         .and_then(|rest| rest.split("</script>").next());
     let data = json(data.expect("data"));
     let joint = &data["joints"][0];
-    let [points, line] = [0, 1].map(|k| joint["friction"][k].as_array().expect("points").clone());
+    let [points, line] = [0, 1].map(|k| list(&joint["friction"][k]));
     assert!(points.len() <= 1200 && line.len() > 20, "{} {}", points.len(), line.len());
     // 2 N·m and 0.7 N·m·s/rad, at the fastest speeds both ways.
     for end in [line.first(), line.last()] {

@@ -6,7 +6,7 @@
 
 use serde_json::Value;
 
-use crate::support::{self, Folder, stiffarm};
+use crate::support::{self, Folder, list, number, stiffarm};
 
 fn data(name: &str) -> String {
     support::data(&format!("logs/{name}"))
@@ -16,25 +16,22 @@ fn diagnosed(arguments: &[&str]) -> Value {
     stiffarm(&[&["diagnose"], arguments, &["--quiet", "--json", "-"]].concat()).json()
 }
 
-/// The numbers of an effect at a place.
 fn numbers(found: &Value, effect: &str, place: &str) -> Vec<f64> {
-    let list = found["findings"].as_array().expect("a list");
-    let finding = list.iter().find(|f| f["effect"] == effect && f["place"] == place);
+    let mut findings = list(&found["findings"]).iter();
+    let finding = findings.find(|f| f["effect"] == effect && f["place"] == place);
     let finding = finding.unwrap_or_else(|| panic!("no {effect} at {place}: {found:#}"));
-    let parameters = finding["parameters"].as_array().expect("a list");
-    parameters.iter().map(|p| p["value"].as_f64().expect("a number")).collect()
+    list(&finding["parameters"]).iter().map(|p| number(&p["value"])).collect()
 }
 
 /// What is left of all joints on unseen time, as a part of their sizes.
 fn left(found: &Value) -> f64 {
-    let gaps = found["gap"].as_array().expect("a list");
-    let part = |g: &Value| g["after"].as_f64().expect("") / g["size"].as_f64().expect("");
+    let gaps = list(&found["gap"]);
+    let part = |g: &Value| number(&g["after"]) / number(&g["size"]);
     gaps.iter().map(part).sum::<f64>() / gaps.len() as f64
 }
 
 fn tx40(folder: &Folder) -> String {
-    let robot = folder.path("tx40.toml");
-    let robot = robot.to_str().expect("a path").to_owned();
+    let robot = folder.name("tx40.toml");
     stiffarm(&["import", &data("tx40.urdf"), "--toml", &robot, "--quiet"]).good();
     robot
 }
@@ -75,8 +72,8 @@ fn of_a_tx40s_torques_less_than_a_tenth_is_left() {
     for (value, published) in [(coupling[1], 0.616), (coupling[2], 1.95)] {
         assert!((value / published - 1.0).abs() < 0.05, "{value}, published {published}");
     }
-    let list = found["findings"].as_array().expect("a list");
-    assert_eq!(list.iter().filter(|f| f["effect"] == "joint_coupling").count(), 1, "{found:#}");
+    let coupled = list(&found["findings"]).iter().filter(|f| f["effect"] == "joint_coupling");
+    assert_eq!(coupled.count(), 1, "{found:#}");
 }
 
 /// Kinematics and masses of TheRobotStudio/SO-ARM100, Simulation/SO101/so101_new_calib.urdf, as
@@ -92,18 +89,15 @@ fn a_small_arm_is_late_then_droops() {
     let delay = numbers(&late, "latency", "the interface")[0];
     assert!((0.1..0.12).contains(&delay), "{delay}");
     let found = diagnosed(&[&robot, &data("so101.csv")]);
-    let list = found["findings"].as_array().expect("a list");
-    assert_eq!(
-        (&list[0]["effect"], &list[1]["effect"]),
-        (&"latency".into(), &"servo_droop".into())
-    );
+    let findings = list(&found["findings"]);
+    assert!(findings[0]["effect"] == "latency" && findings[1]["effect"] == "servo_droop");
     // The play of all servos takes a part of it.
     let delay = numbers(&found, "latency", "the interface")[0];
     assert!((0.08..0.11).contains(&delay), "{delay}");
-    assert_eq!(list.iter().filter(|f| f["effect"] == "backlash").count(), 5, "{found:#}");
+    assert_eq!(findings.iter().filter(|f| f["effect"] == "backlash").count(), 5, "{found:#}");
     assert_eq!(found["evidence"]["held_out_by"], "run");
-    let gaps = found["gap"].as_array().expect("a list");
-    let square: f64 = gaps.iter().map(|g| g["after"].as_f64().expect("").powi(2)).sum();
+    let gaps = list(&found["gap"]);
+    let square: f64 = gaps.iter().map(|g| number(&g["after"]).powi(2)).sum();
     let rms = (square / gaps.len() as f64).sqrt().to_degrees();
     // Ten of the fifty runs.
     assert!(rms < 0.85, "{rms}");

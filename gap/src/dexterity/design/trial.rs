@@ -17,7 +17,6 @@ use crate::whole::Whole;
 /// along.
 pub(super) struct LineUp {
     effects: Vec<(&'static dyn Effect, Spot)>,
-    /// The numbers of each.
     pub(super) numbers: Vec<Vec<Number>>,
 }
 
@@ -30,8 +29,6 @@ pub(super) struct Trial<'a> {
 }
 
 impl LineUp {
-    /// # Errors
-    /// The suspect that has no such form with these rows.
     pub(super) fn new<'s>(
         arm: &Arm,
         suspects: impl Iterator<Item = &'s Suspect>,
@@ -71,9 +68,6 @@ impl LineUp {
 impl Trial<'_> {
     /// What is measured per unit of each number, in units of the noise: of a displacement the
     /// loaded tool minus the unloaded one, else the loaded tool and below it the unloaded one.
-    ///
-    /// # Errors
-    /// [`Unstable`] if the arm finds no rest.
     pub(super) fn rows(
         &self,
         line_up: &LineUp,

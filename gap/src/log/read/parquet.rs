@@ -27,7 +27,6 @@ enum Cells {
 
 /// A column of the file.
 struct Leaf {
-    /// Its index.
     index: usize,
     /// Cells in each row: more than one of a list.
     width: usize,

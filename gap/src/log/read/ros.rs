@@ -53,7 +53,6 @@ impl Kind {
     }
 }
 
-/// One message.
 #[derive(Debug, Default, PartialEq)]
 struct Message {
     /// ns.

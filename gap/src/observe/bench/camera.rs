@@ -242,8 +242,7 @@ mod tests {
             Ok(bench) => bench,
             Err(error) => return error.to_string(),
         };
-        let motions = vec![Motion::Revolute];
-        let layout = Layout { motions, readings: true, markers: Vec::new(), payloads: None, bench };
+        let layout = Layout { bench, ..Layout::new([Motion::Revolute]) };
         let text = format!("{header}\n{row}\n{row}\n");
         Measurements::from_bytes("run.csv", text.as_bytes(), &layout)
             .map_or_else(|error| error.to_string(), |data| data.subject())

@@ -3,7 +3,6 @@ use nalgebra::Vector6;
 use super::*;
 use crate::fixture;
 use crate::measurement::Layout;
-use crate::observe::Bench;
 use crate::plant::{Noise, Plant, csv};
 
 const POSE: Kind = Kind::Pose { orientation: true };
@@ -74,13 +73,7 @@ fn the_arm_warms_up() {
 #[test]
 fn the_file_reads_back() {
     let arm = fixture::springy();
-    let layout = Layout {
-        motions: arm.joints.iter().map(|j| j.motion).collect(),
-        readings: true,
-        markers: Vec::new(),
-        payloads: None,
-        bench: Bench::NONE,
-    };
+    let layout = Layout::new(arm.joints.iter().map(|j| j.motion));
     let only_dz = [false, false, true, false, true, false];
     let kinds =
         [POSE, Kind::Pose { orientation: false }, Kind::Displacement { components: only_dz }];

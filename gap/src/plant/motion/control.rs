@@ -47,9 +47,6 @@ impl Track {
 pub(super) type Gives<'a> = dyn Fn(usize, &[f64]) -> Vec<f64> + 'a;
 
 /// Follows a course with the controller that knows `nominal`; encoders step by `encoder`.
-///
-/// # Errors
-/// In words: the controller cannot hold the arm.
 pub(super) fn controlled(
     real: &Machine,
     nominal: &Machine,

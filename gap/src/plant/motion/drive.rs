@@ -145,7 +145,6 @@ impl Drive {
         cos * q.cos() + sin * q.sin() + self.ripples.iter().map(ripple).sum::<f64>()
     }
 
-    /// What is told of a torque.
     pub(super) fn told(&self, torque: f64) -> f64 {
         (1.0 + self.scale) * torque * (1.0 + self.saturation * torque.abs()) + self.offset
     }

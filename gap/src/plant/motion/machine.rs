@@ -5,9 +5,9 @@ use stiffarm_kernels::generic::Arm;
 
 use super::body::{Body, Piece};
 use super::drive::{Drive, Memory, Sliding};
-use super::laws::Spot;
 use super::stick::{Slider, braked};
 use super::truth::MotionTruth;
+use crate::effects::Place;
 
 /// A motor that turns with two joints, as they feel it beside what is each one's own.
 #[derive(Clone, Debug)]
@@ -75,24 +75,24 @@ impl Machine {
     }
 
     fn put(&mut self, truth: &MotionTruth) {
-        match truth.spot {
-            Spot::Joint(joint) => self.drives[joint].put(truth),
-            Spot::Pair(a, b, sum) => self.shared.push(Shared {
-                joints: [a, b],
+        match truth.spot.place {
+            Place::Joint(joint) => self.drives[joint - 1].put(truth),
+            Place::Pair(a, b, sum) => self.shared.push(Shared {
+                joints: [a - 1, b - 1],
                 sum: f64::from(sum),
                 inertia: truth.value("inertia"),
                 viscous: truth.value("viscous"),
                 brake: Drive::braked(truth.value("coulomb")),
             }),
-            Spot::Link(link) => self.body.add(link, &body(truth)),
+            Place::Link(link) => self.body.add(link - 1, &body(truth)),
             // A machine is that of one run.
-            Spot::Tool(_) => self.body.grip(&body(truth)),
-            Spot::Arm => self.drives.iter_mut().for_each(|drive| drive.put(truth)),
-            Spot::Base => {
+            Place::Held(_) | Place::Tool => self.body.grip(&body(truth)),
+            Place::Arm => self.drives.iter_mut().for_each(|drive| drive.put(truth)),
+            Place::Base => {
                 let turn = Vector3::from(["rx", "ry", "rz"].map(|name| truth.value(name)));
                 self.gravity = Rotation3::from_scaled_axis(turn) * self.gravity;
             }
-            Spot::Interface => self.delay += truth.value("delay"),
+            Place::Interface | Place::Instrument => self.delay += truth.value("delay"),
         }
     }
 

@@ -26,12 +26,14 @@ use nalgebra::Vector3;
 use stiffarm_kernels::generic::Arm;
 
 pub use known::known;
-pub use laws::{LAWS, Law, Rows, Spot};
+pub use laws::{LAWS, Law};
 pub(crate) use record::spread;
 pub use record::{Recorded, Recording, Side};
 pub use text::csv;
 pub use truth::MotionTruth;
 
+use crate::effects::Place;
+use crate::log::Domain;
 use crate::motion::Course;
 use crate::rng::{Rng, Stream, seed_of};
 use control::Track;
@@ -51,10 +53,10 @@ pub enum Logged {
 
 impl Logged {
     /// The rows that such a log has.
-    pub fn rows(self) -> Rows {
+    pub fn rows(self) -> Domain {
         match self {
-            Logged::Torque(_) => Rows::Torque,
-            Logged::Position => Rows::Position,
+            Logged::Torque(_) => Domain::Torque,
+            Logged::Position => Domain::Position,
         }
     }
 }
@@ -179,8 +181,8 @@ impl<'a> MovingPlant<'a> {
 
     /// The truths, without what is held in other runs.
     fn of_run(&self, run: usize) -> Vec<MotionTruth> {
-        let is_here = |truth: &&MotionTruth| match truth.spot {
-            Spot::Tool(other) => other == run,
+        let is_here = |truth: &&MotionTruth| match truth.spot.place {
+            Place::Held(other) => other == run + 1,
             _ => true,
         };
         self.truths.iter().filter(is_here).cloned().collect()

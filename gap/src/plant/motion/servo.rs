@@ -4,7 +4,6 @@
 //! behind it. Backward differences of the second order: a servo without inertia or damping is one too.
 
 use super::control::Track;
-use super::laws::Spot;
 use super::machine::Machine;
 use super::truth::MotionTruth;
 use crate::motion::Course;
@@ -40,7 +39,7 @@ pub(super) fn served(
     let start = course.at(0.0).q;
     let mut servos = vec![Servo::default(); start.len()];
     for truth in truths {
-        let Spot::Joint(joint) = truth.spot else { continue };
+        let Some(joint) = truth.spot.joint() else { continue };
         let (servo, size) = (&mut servos[joint], truth.values[0]);
         match truth.law.name {
             "tracking_lag" => {

@@ -12,7 +12,8 @@ use core::fmt;
 
 use stiffarm_kernels::generic::Arm;
 
-use super::laws::{LAWS, Law, Spot};
+use super::laws::{LAWS, Law};
+use crate::effects::Spot;
 use crate::io::{did_you_mean, nearest};
 use crate::plant::notation::{self, Size, TruthError};
 
@@ -154,6 +155,7 @@ fn spot_of(law: &Law, text: Option<&str>, spots: &[Spot]) -> Result<Spot, String
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::effects::Place;
     use crate::fixture::rigid;
 
     fn parsed(text: &str) -> Result<MotionTruth, String> {
@@ -172,11 +174,11 @@ mod tests {
             assert_eq!(parsed(text).unwrap().to_string(), text);
         }
         let short = parsed("viscous_friction@joint 3 = 2.5 N*m*s/rad").unwrap();
-        assert_eq!((short.spot, short.values), (Spot::Joint(2), vec![2.5]));
+        assert_eq!((short.spot, short.values), (Spot::of_joint(2), vec![2.5]));
         let payload = parsed("payload@tool in run 2:m=2,mz=0.2").unwrap();
-        assert_eq!((payload.spot, payload.value("mz")), (Spot::Tool(1), 0.2));
-        assert_eq!(parsed("latency=0.1 s").unwrap().spot, Spot::Interface);
-        assert_eq!(parsed("joint_coupling@joints 1+2=1").unwrap().spot, Spot::Pair(0, 1, 1));
+        assert_eq!((payload.spot.place, payload.value("mz")), (Place::Held(2), 0.2));
+        assert_eq!(parsed("latency=0.1 s").unwrap().spot.place, Place::Interface);
+        assert_eq!(parsed("joint_coupling@joints 1+2=1").unwrap().spot.place, Place::Pair(1, 2, 1));
     }
 
     #[test]

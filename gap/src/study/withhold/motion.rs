@@ -8,10 +8,10 @@ use super::report::{Case, Named, Residual, Verdict};
 use super::rigid::Rigid;
 use super::run::{self, Planted, known_to};
 use super::{Kind, Motion, Plan, WithholdError};
-use crate::effects::Catalogue;
+use crate::effects::{Catalogue, Place, Spot};
 use crate::log::{Domain, Log, LogDiagnosis, LogOptions, diagnose};
 use crate::motion::Course;
-use crate::plant::motion::{Law, Logged, MotionError, MotionTruth, MovingPlant, Spot, known};
+use crate::plant::motion::{Law, Logged, MotionError, MotionTruth, MovingPlant, known};
 use crate::rng::Rng;
 
 /// An effect of which other masses can do all but this part does not show.
@@ -72,11 +72,11 @@ impl<'a> Bench<'a> {
         let (arm, stages) = (self.plan.arm, self.own.stages);
         let mut spots = law.spots(arm, stages.len());
         let at_rest = Catalogue::default().named(law.name).map(|effect| effect.places(arm));
-        spots.retain(|spot| match spot {
-            Spot::Tool(run) => stages[*run].payload.is_some(),
-            Spot::Joint(joint) => at_rest
+        spots.retain(|spot| match spot.place {
+            Place::Held(run) => stages[run - 1].payload.is_some(),
+            Place::Joint(_) => at_rest
                 .as_ref()
-                .is_none_or(|places| places.iter().any(|place| place.row() == *joint)),
+                .is_none_or(|places| places.iter().any(|place| place.row() == spot.row())),
             _ => true,
         });
         spots
@@ -112,7 +112,7 @@ impl<'a> Bench<'a> {
     /// Whether there is such a thing: gears that give way little and do not hold themselves, iron that
     /// saturates by less than what is given, friction that is there at the end.
     fn is_feasible(&self, truth: &MotionTruth) -> bool {
-        let Spot::Joint(joint) = truth.spot else { return true };
+        let Some(joint) = truth.spot.joint() else { return true };
         let given = self.nominal.iter().flat_map(|run| &run[joint]);
         let given = given.fold(0.0_f64, |most, x| most.max(x.abs()));
         let size = truth.values[0].abs();
@@ -147,15 +147,11 @@ impl<'a> Bench<'a> {
 
     /// Numbers of chance, of which the size is made right afterwards.
     fn draw(&self, law: &Law, spot: Spot, rng: &mut Rng) -> Vec<f64> {
-        let joints = match spot {
-            Spot::Joint(a) => [a, a],
-            Spot::Pair(a, b, _) => [a, b],
-            _ => [0, 0],
-        };
+        let joints = spot.pair().unwrap_or([spot.joint().unwrap_or(0); 2]);
         let fastest = joints.map(|j| self.rates[j]).into_iter().fold(0.0, f64::max);
         let drives = joints.map(|j| &self.plan.arm.joints[j].drive);
         let rotor = drives.map(|d| d.gear * d.gear * d.rotor_inertia);
-        if matches!(spot, Spot::Link(_) | Spot::Tool(_)) {
+        if matches!(spot.place, Place::Link(_) | Place::Held(_)) {
             return body(1.0, 0.15 * rng.normal3());
         }
         let mut number = |name: &str| match name {

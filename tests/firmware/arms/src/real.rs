@@ -6,7 +6,6 @@ use stiffarm::kernels::Scalar;
 pub trait Real: Scalar + PartialEq + 'static {
     /// Bytes of one number.
     const BYTES: usize;
-    /// Infinity.
     const INFINITY: Self;
     /// Not a number.
     const NAN: Self;

@@ -54,9 +54,6 @@ impl From<Unstable> for Refusal {
 }
 
 /// The deflection at `reading`, and the set-point for the target, rad.
-///
-/// # Errors
-/// [`Refusal`].
 pub fn correct<S: Real>(reading: &Reading<S>, target: &[S; N]) -> Result<Correction<S>, Refusal> {
     let sane = finite(&reading.encoders) & finite(&reading.wrench) & finite(target);
     if !sane {

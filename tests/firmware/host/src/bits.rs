@@ -52,9 +52,6 @@ impl<S: Real> Results<S> {
     }
 
     /// What an image sent.
-    ///
-    /// # Errors
-    /// If the bytes end within a result.
     pub fn read(mut bytes: &[u8]) -> Result<Self, Failure> {
         let mut results = Results(Vec::with_capacity(KERNELS + LOOPS));
         while let Some((word, rest)) = bytes.split_first_chunk() {
@@ -77,9 +74,6 @@ impl<S: Real> Results<S> {
 
     /// Whether there are as many results as kernels and periods, and among them refusals of both
     /// kinds and all numbers of every other result.
-    ///
-    /// # Errors
-    /// What is missing.
     pub fn are_whole(&self, with_loops: bool) -> Result<(), Failure> {
         let expected = if with_loops { KERNELS + LOOPS } else { KERNELS };
         if self.0.len() != expected {

@@ -27,9 +27,6 @@ pub struct Budget {
 pub type Budgets = BTreeMap<String, BTreeMap<String, Budget>>;
 
 /// Reads `budgets.toml`.
-///
-/// # Errors
-/// What is wrong with the file, and where.
 pub fn read(path: &Path) -> Result<Budgets, Failure> {
     let place = |e: String| format!("{}: {e}", path.display());
     let text = std::fs::read_to_string(path).map_err(|e| place(e.to_string()))?;

@@ -52,9 +52,6 @@ fn toml(arm: &str) -> Result<&'static str, Failure> {
 }
 
 /// Writes and compiles the kernels of every arm, and what the image calls them through.
-///
-/// # Errors
-/// What the compiler says.
 pub fn objects(tools: &Tools, contraction: Contraction) -> Result<Vec<PathBuf>, Failure> {
     let (folder, contraction) = match contraction {
         Contraction::Off => ("c", "-ffp-contract=off"),

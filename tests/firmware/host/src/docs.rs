@@ -77,9 +77,6 @@ pub fn table(board: Board, figures: &[Figure], budgets: &Budgets) -> String {
 }
 
 /// Puts the tables into the page.
-///
-/// # Errors
-/// If the page cannot be read or written, or has no marks.
 pub fn write(page: &Path, tables: &str) -> Result<(), Failure> {
     let place = |e: &dyn std::fmt::Display| format!("{}: {e}", page.display());
     let text = fs::read_to_string(page).map_err(|e| place(&e))?;

@@ -30,9 +30,6 @@ pub struct Reached {
 
 impl Image {
     /// Reads an image.
-    ///
-    /// # Errors
-    /// If it cannot be read or is no ELF file.
     pub fn open(path: &Path) -> Result<Self, Failure> {
         let place = |e: String| format!("{}: {e}", path.display());
         let bytes = std::fs::read(path).map_err(|e| place(e.to_string()))?;

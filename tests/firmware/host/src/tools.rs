@@ -27,9 +27,6 @@ pub struct Tools {
 
 impl Tools {
     /// The tools of `prefix`, or those on the path.
-    ///
-    /// # Errors
-    /// If the prefix is not whole, or a folder does not exist.
     pub fn new(prefix: Option<PathBuf>) -> Result<Self, Failure> {
         let workspace = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
         let workspace = fs::canonicalize(&workspace)
@@ -83,9 +80,6 @@ impl Tools {
     }
 
     /// Builds an image for a board and keeps it as `name`.
-    ///
-    /// # Errors
-    /// What cargo says.
     pub fn build(
         &self,
         board: Board,
@@ -125,9 +119,6 @@ impl Tools {
     }
 
     /// First line of what a program says of its version.
-    ///
-    /// # Errors
-    /// If it does not start.
     pub fn version(&self, program: &str) -> Result<String, Failure> {
         let mut command = self.command(program);
         command.arg("--version");
@@ -143,9 +134,6 @@ fn libraries(prefix: &Path) -> String {
 }
 
 /// Runs a command to its end.
-///
-/// # Errors
-/// If it does not start, or fails; with what it said.
 pub fn succeed(mut command: Command) -> Result<Output, Failure> {
     let output = command.stdin(Stdio::null()).output().map_err(|e| {
         format!("{}: {e}: is it installed?", command.get_program().to_string_lossy())
@@ -158,9 +146,6 @@ pub fn succeed(mut command: Command) -> Result<Output, Failure> {
 }
 
 /// That something failed as it has to: `reasons` are what it may say.
-///
-/// # Errors
-/// If it did not fail, or for another reason.
 pub fn refused<T>(done: Result<T, Failure>, reasons: &[&str]) -> Result<(), Failure> {
     match done {
         Err(said) if reasons.iter().any(|reason| said.contains(reason)) => Ok(()),
