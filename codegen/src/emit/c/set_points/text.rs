@@ -346,6 +346,10 @@ pub(super) fn whole(text: &Text) -> String {
         ),
         false => (String::new(), String::new(), ""),
     };
+    let none = match text.third {
+        Some(_) => format!("(begin.distance[branch] > {}) || ", text.lit(f64::from(f32::MAX))),
+        None => String::new(),
+    };
     format!(
         "
 {head}
@@ -359,8 +363,8 @@ pub(super) fn whole(text: &Text) -> String {
     {{
         const {real} *const joints = &begin.q[{n}U * branch];
 
-        if ({name}_{branch}_of(joints{given}, target,{wrench} &out->q[{n}U * branch], &out->distance[branch],
-            &out->tilt[branch]) == 0)
+        if ({none}({name}_{branch}_of(joints{given}, target,{wrench} &out->q[{n}U * branch], &out->distance[branch],
+            &out->tilt[branch]) == 0))
         {{
             (void)memcpy(&out->q[{n}U * branch], joints, {n}U * sizeof joints[0]);
             out->distance[branch] = most + most;
