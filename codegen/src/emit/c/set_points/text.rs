@@ -346,9 +346,16 @@ pub(super) fn whole(text: &Text) -> String {
         ),
         false => (String::new(), String::new(), ""),
     };
-    let none = match text.third {
-        Some(_) => format!("(begin.distance[branch] > {}) || ", text.lit(f64::from(f32::MAX))),
-        None => String::new(),
+    let follows = format!(
+        "{name}_{branch}_of(joints{given}, target,{wrench} &out->q[{n}U * branch], &out->distance[branch],
+            &out->tilt[branch]) == 0"
+    );
+    let fails = match text.third {
+        Some(_) => {
+            let most = text.lit(f64::from(f32::MAX));
+            format!("(begin.distance[branch] > {most}) || ({follows})")
+        }
+        None => follows,
     };
     format!(
         "
@@ -363,8 +370,7 @@ pub(super) fn whole(text: &Text) -> String {
     {{
         const {real} *const joints = &begin.q[{n}U * branch];
 
-        if ({none}({name}_{branch}_of(joints{given}, target,{wrench} &out->q[{n}U * branch], &out->distance[branch],
-            &out->tilt[branch]) == 0))
+        if ({fails})
         {{
             (void)memcpy(&out->q[{n}U * branch], joints, {n}U * sizeof joints[0]);
             out->distance[branch] = most + most;
