@@ -1,4 +1,73 @@
 
+/* At an angle of joint 3: twelve rows in triangular form, and their determinant. */
+static void arm_twelve(const arm_rest_t *rest, const double *by, arm_twelve_t *out)
+{
+    unsigned int row;
+    unsigned int k;
+    unsigned int column;
+
+    for (row = 0U; row < 12U; row++)
+    {
+        for (k = 0U; k < 12U; k++)
+        {
+            out->at[row][k] = 0.0;
+        }
+        out->at[row][12] = 1.0;
+    }
+    for (row = 0U; row < 6U; row++)
+    {
+        for (k = 0U; k < 9U; k++)
+        {
+            const double *const of = rest->at[row][k % 3U][k / 3U];
+            const double value = of[0] + of[1] * by[0] + of[2] * by[1];
+
+            out->at[row][k] = value;
+            out->at[row + 6U][k + 3U] = value;
+        }
+    }
+    out->determinant = 1.0;
+    for (k = 0U; k < 12U; k++)
+    {
+        unsigned int pivot = k;
+
+        for (row = k; row < 12U; row++)
+        {
+            if (fabs(out->at[row][k]) > fabs(out->at[pivot][k]))
+            {
+                pivot = row;
+            }
+        }
+        if (pivot != k)
+        {
+            for (column = 0U; column < 13U; column++)
+            {
+                const double kept = out->at[k][column];
+
+                out->at[k][column] = out->at[pivot][column];
+                out->at[pivot][column] = kept;
+            }
+            out->determinant = -out->determinant;
+        }
+        out->determinant = out->determinant * out->at[k][k];
+        if (out->at[k][k] == 0.0)
+        {
+            out->at[k][k] = 2.2250738585072014e-308;
+        }
+        for (row = k + 1U; row < 12U; row++)
+        {
+            const double factor = out->at[row][k] / out->at[k][k];
+
+            if (factor != 0.0)
+            {
+                for (column = k; column < 13U; column++)
+                {
+                    out->at[row][column] = out->at[row][column] - factor * out->at[k][column];
+                }
+            }
+        }
+    }
+}
+
 /* The pair x[low], x[high] of most length, as the angle of its tangent. */
 static double arm_half_angle(const double *x, unsigned int apart)
 {
