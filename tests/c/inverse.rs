@@ -31,6 +31,8 @@ robot! {
 robot! { mod stanford from "robots/arms/stanford.toml"; outputs: pose, inverse_kinematics; }
 robot! { mod plane from "robots/arms/bicchi_3r.toml"; outputs: pose, inverse_kinematics; }
 robot! { mod general from "tests/data/general.toml"; outputs: pose, inverse_kinematics; }
+robot! { mod searched from "tests/data/offset_wrist.toml"; outputs: pose, inverse_kinematics; }
+robot! { mod by_three from "robots/arms/panda.toml"; outputs: pose, inverse_kinematics given 3; }
 
 /// Arms under a load: one of whose links bend, one that bears any load, and what a tracker found.
 mod loaded {
@@ -50,6 +52,7 @@ mod loaded {
         panda "robots/arms/panda.toml"
         plane "robots/arms/bicchi_3r.toml"
         calibrated "tests/data/calibrated_kuka.toml"
+        searched "tests/data/offset_wrist.toml"
     }
     robot! {
         pub mod elbow from "robots/arms/iiwa14.toml";
@@ -262,7 +265,7 @@ fn said(compiler: &str, (id, outputs): (&str, &[&str]), input: &str) -> String {
             );
         }
         "python3" => {
-            folder.write("arm.py", &python(&robot).expect("no search"));
+            folder.write("arm.py", &python(&robot).expect("every arm"));
             folder.write("main.py", &python_program(function, given, robot.dof()));
             let mut python = Command::new(compiler);
             python.arg("main.py").current_dir(folder.path());
@@ -329,23 +332,33 @@ fn check<const N: usize, const K: usize, A: Inverse<N, K> + has::Pose<N>>(
             }
             continue;
         }
+        let same = |at: usize, other: usize, within: f64| {
+            let (a, b) = (found[at], expected[other]);
+            let by = (a - b).abs();
+            a.is_nan() && b.is_nan()
+                || a == b
+                || by.min((by - core::f64::consts::TAU).abs()) < within
+        };
         for branch in 0..K {
-            let near = |k: usize, within: f64| {
-                let by = (found[k] - expected[k]).abs();
-                found[k].is_nan() && expected[k].is_nan()
-                    || found[k] == expected[k]
-                    || by.min((by - core::f64::consts::TAU).abs()) < within
-            };
             let missed = (N * K + branch, N * K + K + branch);
             // A load that displaces the links by kilometres is beyond the first order.
             if expected[missed.0].is_finite() && expected[missed.1] > 2.0 {
                 continue;
             }
-            let same = near(missed.0, 1e-9) && near(missed.1, 1e-9);
             all += 1;
-            let joints = (N * branch..N * branch + N).all(|k| near(k, 1e-6));
+            if compiler == "python3" && K == 16 {
+                // A search's solutions are in no order, and of a pose out of reach several may be the nearest.
+                let off = |of: &[f64], k: usize| of[N * K + k].powi(2) + of[N * K + K + k].powi(2);
+                let (told, least) = (off(&found, 0), off(expected, branch));
+                let again = |k| (0..N).all(|joint| same(N * k + joint, N * branch + joint, 1e-6));
+                let nearest = least > 1e-12 && (told - least).abs() < 1e-9 * least;
+                others += usize::from(least.is_finite() && !nearest && !(0..K).any(again));
+                continue;
+            }
+            let told = same(missed.0, missed.0, 1e-9) && same(missed.1, missed.1, 1e-9);
+            let joints = (N * branch..N * branch + N).all(|k| same(k, k, 1e-6));
             // Where no number is told, the joint values say nothing.
-            others += usize::from(!same || !joints && expected[missed.0].is_finite());
+            others += usize::from(!told || !joints && expected[missed.0].is_finite());
         }
     }
     println!("{id} {compiler}: {others} of {all} branches are others");
@@ -396,6 +409,20 @@ fn branches_are_the_rust_kernels_bits(compiler: &str) {
     check!(stanford::Robot, "robots/arms/stanford.toml");
     check!(plane::Robot, "robots/arms/bicchi_3r.toml");
     check!(general::Robot, "tests/data/general.toml");
+    check(
+        compiler,
+        (&searched::Robot, "tests/data/offset_wrist.toml", &OUTPUTS[..3]),
+        |pose, near, _| searched::Robot.inverse_kinematics(pose, near),
+    );
+    check(
+        compiler,
+        (
+            &by_three::Robot,
+            "robots/arms/panda.toml",
+            &["pose", "inverse_kinematics given 3", "jacobian"],
+        ),
+        |pose, near, _| by_three::Robot.inverse_kinematics(pose, near),
+    );
 }
 
 fn set_points_are_the_rust_kernels_bits(compiler: &str) {
@@ -412,6 +439,7 @@ fn set_points_are_the_rust_kernels_bits(compiler: &str) {
     check!(loaded::panda::Robot, "robots/arms/panda.toml");
     check!(loaded::plane::Robot, "robots/arms/bicchi_3r.toml");
     check!(calibrated, "tests/data/calibrated_kuka.toml");
+    check!(loaded::searched::Robot, "tests/data/offset_wrist.toml");
     let elbow = loaded::elbow::Robot;
     check(compiler, (&elbow, "robots/arms/iiwa14.toml", &WITH_ELBOW), |pose, near, wrench| {
         elbow.set_points(pose, near, wrench)

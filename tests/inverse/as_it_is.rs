@@ -46,8 +46,7 @@ place = "tool"
 scale = "2 %"
 "#;
 
-/// The arms of the collection that have numbers and a closed form.
-/// Arms of so many joints, all of which turn.
+/// The arms of the collection that have numbers, a closed form, and so many joints, all of which turn.
 fn collection(dof: usize) -> Vec<Robot> {
     let mut arms = stiffarm_robots::ARMS.to_vec();
     arms.sort_by_key(|arm| arm.id);
@@ -154,13 +153,44 @@ fn apart(a: &Isometry3<f64>, b: &Isometry3<f64>) -> [f64; 2] {
     ]
 }
 
+/// Branches, those of them within 1 nm by three steps and by eight, poses, and those of which a branch is the readings that
+/// made them.
+type Counts = [usize; 5];
+
+/// Whether the shares are above these.
+fn are_above(of: &str, counts: Counts, [three, eight, again]: [f64; 3]) {
+    let [branches, by_three, reached, poses, found] = counts;
+    println!(
+        "{of}: {by_three} of {branches} branches within 1 nm by three steps, {reached} by eight; {found} of {poses} poses"
+    );
+    let share = |part: usize, of: usize| part as f64 / of as f64;
+    assert!(share(by_three, branches) > three, "{of}: {by_three} of {branches}");
+    assert!(share(reached, branches) > eight, "{of}: {reached} of {branches}");
+    assert!(share(found, poses) > again, "{of}: {found} of {poses}");
+}
+
 /// Every branch stands where it says by the arm's equilibrium, one of them is the readings that made the pose, and nearly
 /// all reach it: the others are near singular postures.
-fn check<const N: usize>(poses: usize) {
-    let mut draws = Draws::new(7);
-    for robot in collection(N) {
+fn check(poses: usize) {
+    let (mut all, mut arms) = ([0; 5], each_arm::<6>(poses));
+    arms.extend(each_arm::<7>(poses));
+    for (name, counts) in arms {
+        // The eight branches of a pose are near singular together: of 24 seeds and 13 arms the least are 0.82, 0.93, 0.88.
+        are_above(&name, counts, [0.75, 0.85, 0.8]);
+        all.iter_mut().zip(counts).for_each(|(sum, count)| *sum += count);
+    }
+    // 24 seeds, sixty poses each: 0.961 (standard deviation of a seed 0.007), 0.987 (0.004), 0.988 (0.006). These are four
+    // deviations below.
+    are_above("all arms", all, [0.93, 0.97, 0.96]);
+}
+
+fn each_arm<const N: usize>(poses: usize) -> Vec<(String, Counts)> {
+    let of = |robot: Robot| {
+        // What one arm draws is not another's.
+        let seed = |seed: u64, byte: u8| seed.wrapping_mul(31).wrapping_add(u64::from(byte));
+        let mut draws = Draws::new(robot.name.bytes().fold(0, seed));
         let arm = Arm::<N>::new(&calibrated(&robot, &mut draws), &mut draws);
-        let (mut all, mut by_three, mut reached, mut found) = (0, 0, 0, 0);
+        let [mut all, mut by_three, mut reached, mut found] = [0; 4];
         let mut worst = 0.0_f64;
         for k in 0..poses {
             let (q, wrench) = (draws.array(-3.1, 3.1), arm.load(&mut draws));
@@ -189,30 +219,21 @@ fn check<const N: usize>(poses: usize) {
                 }
             }
         }
-        // Measured over 1000 poses: docs/inverse.md. The eight branches of a pose are near singular together: of sixty poses
-        // two make 3 %.
-        let name = &robot.name;
-        println!(
-            "{name}: {by_three} of {all} branches within 1 nm by three steps, {reached} by eight, off what is told by {worst:.1e}"
-        );
-        assert!(worst < 1e-12, "{name}: {worst:e}");
-        assert!(by_three as f64 > 0.9 * all as f64, "{name}: {by_three} of {all}");
-        assert!(reached as f64 > 0.95 * all as f64, "{name}: {reached} of {all}");
-        assert!(found as f64 > 0.97 * poses as f64, "{name}: {found} of {poses}");
-    }
+        assert!(worst < 1e-12, "{}: {worst:e}", robot.name);
+        (robot.name, [all, by_three, reached, poses, found])
+    };
+    collection(N).into_iter().map(of).collect()
 }
 
 #[test]
 fn set_points_of_calibrated_arms_stand_at_their_poses() {
-    check::<6>(60);
-    check::<7>(60);
+    check(60);
 }
 
 #[test]
 #[ignore = "takes a minute"]
 fn set_points_of_calibrated_arms_stand_at_a_thousand_poses() {
-    check::<6>(1000);
-    check::<7>(1000);
+    check(1000);
 }
 
 robot! { mod kuka from "tests/data/calibrated_kuka.toml"; outputs: pose, jacobian, deflection_with_gravity, inverse_kinematics; }

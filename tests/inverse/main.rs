@@ -4,7 +4,7 @@
 mod as_it_is;
 
 use stiffarm::kernels::lanes::f64x4;
-use stiffarm::kernels::{Arm, ElbowAngle, Inverse, Pose, Scalar, Solutions, has};
+use stiffarm::kernels::{Arm, ElbowAngle, Inverse, Pose, Scalar, SetPoints, Solutions, batch, has};
 use stiffarm::robot;
 use stiffarm_draws::Draws;
 
@@ -261,4 +261,35 @@ fn lanes_have_the_bits_of_one_pose() {
     let sides = as_it_is::SIDES.map(f64::from);
     let lanes = sides.map(f64x4::lit);
     in_lanes(&as_it_is::ur10::Robot { sides }, &as_it_is::ur10::Robot { sides: lanes }, &mut draws);
+}
+
+/// The branches of a pose by as many at once as lanes hold have the bits of one after the other, and so they have where the
+/// arm does not bear its load.
+#[test]
+fn branches_at_once_have_the_bits_of_one() {
+    type Lanes = <f64 as batch::Number>::Lanes;
+    let sides = as_it_is::SIDES.map(f64::from);
+    let arm = as_it_is::ur10::Robot { sides };
+    let lanes = as_it_is::ur10::Robot { sides: sides.map(Lanes::lit) };
+    let mut draws = Draws::new(9);
+    let mut infinite = 0;
+    for k in 0..200 {
+        let q: [f64; 6] = draws.array(-3.1, 3.1);
+        let (pose, wrench) = (at(&arm, &q), draws.load().map(|x| x * [1.0, 1e4][k % 2]));
+        let rigid =
+            (arm.inverse_kinematics(&pose, &q), batch::inverse_kinematics(&arm, &lanes, &pose, &q));
+        let loaded = (
+            arm.set_points(&pose, &q, &wrench),
+            batch::set_points(&arm, &lanes, &pose, &q, &wrench),
+        );
+        for (one, at_once) in [rigid, loaded] {
+            let bits = |of: Solutions<f64, 6, 8>| {
+                let all = of.q.into_iter().flatten().chain(of.distance).chain(of.tilt);
+                all.map(f64::to_bits).collect::<Vec<_>>()
+            };
+            infinite += one.distance.iter().filter(|distance| distance.is_infinite()).count();
+            assert_eq!(bits(one), bits(at_once));
+        }
+    }
+    assert!(infinite > 0);
 }

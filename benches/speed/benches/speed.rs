@@ -19,10 +19,10 @@ use stiffarm_bench::ideal;
 use stiffarm_bench::lanes::{by_eight, by_four};
 use stiffarm_bench::timing::{Candidate, print};
 use stiffarm_draws::Draws;
-use stiffarm_kernels::batch::{Layout, Wrenches, evaluate, evaluate_parallel};
+use stiffarm_kernels::batch::{self, Layout, Wrenches, evaluate, evaluate_parallel};
 use stiffarm_kernels::generic;
 use stiffarm_kernels::{
-    Arm as _, Inverse as _, Kernels, Output, Pose, SetPoints as _, has::Pose as _,
+    Arm as _, Inverse as _, Kernels, Output, Pose, Scalar, SetPoints as _, has::Pose as _,
 };
 
 const POSES: usize = 2048;
@@ -276,11 +276,11 @@ fn latency() {
     print("complementary_stiffness", &mut candidates, ROUNDS);
 }
 
-/// Every branch at a pose of the arm's own, the closed form alone and with the steps behind it; four poses at once; and one
+/// Every branch at a pose of the arm's own, the closed form alone and with the steps behind it, one by one and in lanes; and one
 /// set-point under a load.
 macro_rules! inverse {
-    ($arm:ident $robot:expr) => {{
-        let arm = $robot;
+    ($arm:ident $robot:expr, $lanes:expr) => {{
+        let (arm, lanes) = ($robot, $lanes);
         let mut draws = Draws::new(1);
         let (wrenches, postures) = (draws.loads(POSES), draws.postures::<6>(POSES));
         let stands = |q: &[f64; 6]| -> (Pose<f64>, [f64; 6]) { (arm.pose(&arm.posture(q)), *q) };
@@ -292,6 +292,9 @@ macro_rules! inverse {
                 arm.inverse_kinematics(pose, q)
             }),
             Candidate::new("set-points", 1, input, |(pose, q), w| arm.set_points(pose, q, w)),
+            Candidate::new("in lanes", 1, input, |(pose, q), w| {
+                batch::set_points(&arm, &lanes, pose, q, w)
+            }),
             Candidate::new("set-point", 1, input, |(pose, q), w| {
                 arm.set_point(pose, q, w, (1e-6, 1e-6))
             }),
@@ -303,12 +306,13 @@ macro_rules! inverse {
 fn inverses() {
     use arms::SIDES as sides;
     use arms::inverse::{calibrated_kuka, calibrated_ur10, irb120, kuka_kr240, ur10};
+    let in_lanes = sides.map(<<f64 as batch::Number>::Lanes as Scalar>::lit);
     println!("the inverse: ns per pose (ratio to the closed form)");
-    inverse!(kuka_kr240 kuka_kr240::Robot);
-    inverse!(ur10 ur10::Robot);
-    inverse!(irb120 irb120::Robot);
-    inverse!(calibrated_kuka calibrated_kuka::Robot { sides });
-    inverse!(calibrated_ur10 calibrated_ur10::Robot { sides });
+    inverse!(kuka_kr240 kuka_kr240::Robot, kuka_kr240::Robot);
+    inverse!(ur10 ur10::Robot, ur10::Robot);
+    inverse!(irb120 irb120::Robot, irb120::Robot);
+    inverse!(calibrated_kuka calibrated_kuka::Robot { sides }, calibrated_kuka::Robot { sides: in_lanes });
+    inverse!(calibrated_ur10 calibrated_ur10::Robot { sides }, calibrated_ur10::Robot { sides: in_lanes });
 }
 
 fn main() {

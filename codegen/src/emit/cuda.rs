@@ -9,7 +9,7 @@ use super::cells::world;
 use super::hash::provenance;
 use super::legend::legend;
 use super::lines::Lines;
-use super::{NotWritten, asked, has_inverse};
+use super::{NotWritten, asked};
 use crate::derive::Program;
 use crate::ir::{Extra, Function};
 use crate::robot::Robot;
@@ -26,7 +26,7 @@ pub struct CudaOptions {
 /// The kernels of a robot as one file of CUDA C. The same table and options always give the same bytes.
 ///
 /// # Errors
-/// [`NotWritten`] where a cell of the table is no number, or the inverse kinematics is a search.
+/// [`NotWritten`] where a cell of the table is no number.
 pub fn cuda(robot: &Robot, options: &CudaOptions) -> Result<String, NotWritten> {
     cuda_with(robot, &[], options)
 }
@@ -37,7 +37,6 @@ pub(crate) fn cuda_with(
     own: &[&Program],
     CudaOptions { name, precision }: &CudaOptions,
 ) -> Result<String, NotWritten> {
-    has_inverse(robot, true)?;
     let options = COptions { name: name.clone(), precision: *precision, sines: Sines::Math };
     let module = Module::new(robot, own, &options, true)?;
     let mut body = Lines::default();

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use stiffarm_kernels::{Form, Output};
 
-use super::{NotWritten, has_inverse};
+use super::NotWritten;
 use crate::derive::{
     COMPONENTS, Displacements, Form as Flexible, Held, Program, Quantity, Size, derive, flexible,
     inverse,
@@ -18,13 +18,24 @@ use crate::robot::Robot;
 /// # Errors
 /// [`NotWritten`] where the inverse kinematics is no closed form of the arm itself.
 pub fn latex(robot: &Robot, outputs: &[Output]) -> Result<String, NotWritten> {
-    has_inverse(robot, false)?;
+    has_inverse(robot)?;
     let sections = outputs
         .iter()
         .map(|output| section(derive(robot, &[*output]), &output.name().replace('_', " ")));
     let inverse =
         robot.inverse_kinematics.map(|form| section(inverse(robot, form), "inverse kinematics"));
     Ok(document(robot, sections.chain(inverse)))
+}
+
+/// Refuses an inverse that is more than formulas.
+fn has_inverse(robot: &Robot) -> Result<(), NotWritten> {
+    let exact = robot.is_as_its_table() && robot.closed_form().is_ok();
+    let is = match robot.inverse_kinematics {
+        Some(form) if form.is_search() => "a search, not a closed form",
+        Some(_) if !exact => "a closed form of another table with steps behind it",
+        _ => return Ok(()),
+    };
+    Err(NotWritten::Inverse { is, written: "rust, c, cuda or python" })
 }
 
 /// A document with the flexible kinematics of a table (Jweeg & Al-Khafaji 2012, eq. 20) in each of

@@ -41,7 +41,7 @@ pub use urdf::urdf;
 
 use core::fmt;
 
-use crate::robot::{ClosedForm, Robot};
+use crate::robot::Robot;
 
 /// What a language's text is not written of.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -75,19 +75,6 @@ impl From<SymbolicTable> for NotWritten {
     fn from(table: SymbolicTable) -> Self {
         NotWritten::Symbolic(table)
     }
-}
-
-/// Refuses a search, which Rust alone has, and steps where the language has none.
-fn has_inverse(robot: &Robot, steps: bool) -> Result<(), NotWritten> {
-    let exact = robot.is_as_its_table() && robot.closed_form().is_ok();
-    let (is, written) = match robot.inverse_kinematics {
-        Some(form) if ClosedForm::is_search(form) => ("a search, not a closed form", "rust"),
-        Some(_) if !steps && !exact => {
-            ("a closed form of another table with steps behind it", "rust, c, cuda or python")
-        }
-        _ => return Ok(()),
-    };
-    Err(NotWritten::Inverse { is, written })
 }
 
 /// How a command asks for the outputs of a robot, where they are not all of its tool's.

@@ -11,7 +11,7 @@ use super::hash::provenance;
 use super::legend::legend;
 use super::lines::{Lines, WIDTH};
 use super::literal::constant;
-use super::{NotWritten, asked, has_inverse};
+use super::{NotWritten, asked};
 use crate::derive::{Held, Program, Size};
 use crate::ir::{Angle, Function, Module, Operation, Plain, Solve, Statement, Style, Term};
 use crate::number::Number;
@@ -20,14 +20,13 @@ use crate::robot::Robot;
 /// The kernels of a robot as a module of Python that needs NumPy alone. The same table always gives the same bytes.
 ///
 /// # Errors
-/// [`NotWritten`] where the inverse kinematics is a search.
+/// None: every arm is written.
 pub fn python(robot: &Robot) -> Result<String, NotWritten> {
-    python_with(robot, &[])
+    Ok(python_with(robot, &[]))
 }
 
 /// The same with functions of one's own.
-pub(crate) fn python_with(robot: &Robot, own: &[&Program]) -> Result<String, NotWritten> {
-    has_inverse(robot, true)?;
+pub(crate) fn python_with(robot: &Robot, own: &[&Program]) -> String {
     let module = Module::new(robot, own, false);
     let mut out = Lines::default();
     head(&module, &mut out);
@@ -41,7 +40,7 @@ pub(crate) fn python_with(robot: &Robot, own: &[&Program]) -> Result<String, Not
         Printer { of, module: &module, at_joints: false }.function(&mut out);
     }
     as_it_is::functions(&module, &mut out);
-    Ok(out.finish())
+    out.finish()
 }
 
 /// How Python spells terms; `constants` stands before a field of the constants.

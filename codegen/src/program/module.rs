@@ -65,7 +65,7 @@ impl<'r> Module<'r> {
     /// Both files in C, like [`c`](crate::emit::c).
     ///
     /// # Errors
-    /// [`NotWritten`] where a cell of the table is no number, or the inverse kinematics is a search.
+    /// [`NotWritten`] where a cell of the table is no number.
     pub fn c(&self, options: &COptions) -> Result<CFiles, NotWritten> {
         c_with(self.robot, &self.programs(), options)
     }
@@ -73,15 +73,15 @@ impl<'r> Module<'r> {
     /// The module in Python, like [`python`](crate::emit::python).
     ///
     /// # Errors
-    /// [`NotWritten`] where the inverse kinematics is a search.
+    /// None: every arm is written.
     pub fn python(&self) -> Result<String, NotWritten> {
-        python_with(self.robot, &self.programs())
+        Ok(python_with(self.robot, &self.programs()))
     }
 
     /// The file in CUDA C, like [`cuda`](crate::emit::cuda).
     ///
     /// # Errors
-    /// [`NotWritten`] where a cell of the table is no number, or the inverse kinematics is a search.
+    /// [`NotWritten`] where a cell of the table is no number.
     pub fn cuda(&self, options: &CudaOptions) -> Result<String, NotWritten> {
         cuda_with(self.robot, &self.programs(), options)
     }

@@ -2,7 +2,7 @@
 
 use nalgebra::{Isometry3, Vector3};
 use stiffarm_codegen::derive::{AsItIs, Given};
-use stiffarm_codegen::emit::{latex, python};
+use stiffarm_codegen::emit::latex;
 use stiffarm_codegen::number::Number;
 use stiffarm_codegen::robot::{ClosedForm, Family, Redundancy, Robot, Value};
 use stiffarm_draws::Draws;
@@ -278,9 +278,9 @@ fn an_offset_wrist_is_searched() {
     let form = robot.nearest_closed_form().expect("a search");
     assert!(form.is_search(), "{form:?}");
     robot.inverse_kinematics = Some(form);
-    let no = "is a search, not a closed form, and is written as rust alone";
-    let told = [python(&robot), latex(&robot, &[])].map(|text| text.expect_err("a search"));
-    assert!(told.iter().all(|told| told.to_string().ends_with(no)), "{told:?}");
+    let no = "is a search, not a closed form, and is written as rust, c, cuda or python alone";
+    let told = latex(&robot, &[]).expect_err("a search").to_string();
+    assert!(told.ends_with(no), "{told}");
 }
 
 /// The formulas on paper: the same steps as in every other text.

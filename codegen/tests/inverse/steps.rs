@@ -78,26 +78,28 @@ fn random_tables_take_three_steps_to_five() {
     assert_eq!(counts[3..=5].iter().sum::<usize>(), FAMILIES.len(), "{counts:?}");
 }
 
-/// An arm that grows when it is warm is another than its table.
+/// An arm that grows when it is warm is another than its table, also where that is searched.
 #[test]
 fn an_arm_that_grows_takes_steps() {
-    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../robots/arms/kuka_kr240.toml");
     let growth = "[[effect]]\nid = 'thermal_growth'\nplace = 'arm'\nexpansion = '12 ppm/K'\n";
-    let text = std::fs::read_to_string(file).expect("the file") + growth;
-    let robot = Robot::from_toml(&text, "arm.toml").expect("valid").0;
-    let form = robot.nearest_closed_form().expect("a closed form");
-    assert_eq!(steps(&robot, form).unloaded, 0);
-    let grown = robot.with_effects().expect("an effect of kernels");
-    assert!((2..=3).contains(&steps(&grown, form).unloaded));
-    let arm = AsItIs::<6>::new(&grown, form, Given { warming: 20.0, ..Given::default() });
-    let (q, pose) = ([0.3, 1.0, -0.4, 0.2, 0.6, -0.5], reference(&robot));
-    let mut at = pose.pose(&q);
-    at.translation.vector *= 1.0 + 20.0 * 12e-6;
-    let pose = Pose::from(at);
-    let found = arm.solutions(&pose, &q, (None, Steps::MOST)).into_iter();
-    let found = found.filter(|branch| branch.distance < 1e-9 && branch.tilt < 1e-9);
-    let nearest = nearest_branch(found, &q, &[None; 6]).expect("the posture").q;
-    assert!(nearest.iter().zip(&q).all(|(a, b)| (a - b).abs() < 1e-9), "{nearest:?}");
+    for file in ["robots/arms/kuka_kr240.toml", "tests/data/offset_wrist.toml"] {
+        let path = format!("{}/../{file}", env!("CARGO_MANIFEST_DIR"));
+        let text = std::fs::read_to_string(path).expect("the file") + growth;
+        let robot = Robot::from_toml(&text, "arm.toml").expect("valid").0;
+        let form = robot.nearest_closed_form().expect("a closed form or a search");
+        assert_eq!(steps(&robot, form).unloaded, 0);
+        let grown = robot.with_effects().expect("an effect of kernels");
+        assert!((2..=3).contains(&steps(&grown, form).unloaded), "{:?}", steps(&grown, form));
+        let arm = AsItIs::<6>::new(&grown, form, Given { warming: 20.0, ..Given::default() });
+        let (q, pose) = ([0.3, 1.0, -0.4, 0.2, 0.6, -0.5], reference(&robot));
+        let mut at = pose.pose(&q);
+        at.translation.vector *= 1.0 + 20.0 * 12e-6;
+        let pose = Pose::from(at);
+        let found = arm.solutions(&pose, &q, (None, Steps::MOST)).into_iter();
+        let found = found.filter(|branch| branch.distance < 1e-9 && branch.tilt < 1e-9);
+        let nearest = nearest_branch(found, &q, &[None; 6]).expect("the posture").q;
+        assert!(nearest.iter().zip(&q).all(|(a, b)| (a - b).abs() < 1e-9), "{nearest:?}");
+    }
 }
 
 /// What is not near is searched for; with parameters it is refused with what stands in the way of a closed form.

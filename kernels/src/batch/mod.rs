@@ -20,6 +20,7 @@ mod parallel;
 use alloc::vec::Vec;
 use core::fmt;
 
+pub use crate::inverse::at_once::{inverse_kinematics, set_points};
 pub use batched::Batched;
 pub use columns::evaluate_columns;
 pub use number::Number;

@@ -1,5 +1,7 @@
 //! What an inverse kinematics returns, and which of its branches a controller takes.
 
+#[cfg(feature = "batch")]
+pub(crate) mod at_once;
 mod search;
 mod set_points;
 mod steps;
@@ -112,14 +114,22 @@ impl<S: Scalar, const N: usize, const K: usize> Solutions<S, N, K> {
     /// Each branch's joint values replaced by readings, and by what they miss the pose ([`AtRest::follow`]). A branch at
     /// which the arm does not bear its load, or that was not found, stays as it is, and misses the pose by an infinite distance.
     pub fn each(mut self, follow: impl Fn([S; N]) -> Result<([S; N], [S; 2]), Unstable>) -> Self {
-        for branch in 0..K {
-            let infinite = [S::lit(f64::INFINITY); 2];
-            let none = (self.distance[branch] - S::lit(f64::from(f32::MAX))).is_positive();
-            let followed = if none { Err(Unstable) } else { follow(self.q[branch]) };
-            let (q, missed) = followed.unwrap_or((self.q[branch], infinite));
-            (self.q[branch], [self.distance[branch], self.tilt[branch]]) = (q, missed);
-        }
+        (0..K).for_each(|branch| self.follow(branch, &follow));
         self
+    }
+
+    /// [`Solutions::each`] of one branch.
+    #[inline(always)]
+    pub(crate) fn follow(
+        &mut self,
+        branch: usize,
+        follow: impl Fn([S; N]) -> Result<([S; N], [S; 2]), Unstable>,
+    ) {
+        let infinite = [S::lit(f64::INFINITY); 2];
+        let none = (self.distance[branch] - S::lit(f64::from(f32::MAX))).is_positive();
+        let followed = if none { Err(Unstable) } else { follow(self.q[branch]) };
+        let (q, missed) = followed.unwrap_or((self.q[branch], infinite));
+        (self.q[branch], [self.distance[branch], self.tilt[branch]]) = (q, missed);
     }
 }
 
@@ -224,11 +234,16 @@ pub fn nearest_branch<S: Scalar + Into<f64>, const N: usize>(
     best.map(|(_, solution)| solution)
 }
 
-/// The angle that is so by whole turns, within the limits, nearest to another.
-fn unwound(q: f64, near: f64, limits: Option<[f64; 2]>) -> Option<f64> {
+/// Whole turns from an angle to near another.
+fn turns(q: f64, near: f64) -> f64 {
     // The spacing of numbers of this size is 1: what is added and taken off again is rounded.
     const WHOLE: f64 = 1.5 / f64::EPSILON;
-    let turns = ((near - q) / TAU + WHOLE) - WHOLE;
+    ((near - q) / TAU + WHOLE) - WHOLE
+}
+
+/// The angle that is so by whole turns, within the limits, nearest to another.
+fn unwound(q: f64, near: f64, limits: Option<[f64; 2]>) -> Option<f64> {
+    let turns = turns(q, near);
     let nearest = q + turns * TAU;
     match limits {
         Some([low, high]) if !(low <= nearest && nearest <= high) => {

@@ -111,8 +111,20 @@ pub fn unloaded<S: Scalar, const N: usize, const K: usize, A>(
 where
     A: Inverse<N, K, S> + has::Pose<N, S> + has::Jacobian<N, S>,
 {
-    let steps = (A::STEPS.unloaded, A::STEPS.readings);
-    closed.each(|q| Rigid(arm, A::GIVEN).follow(q, pose, steps))
+    closed.each(|joints| rigid(arm, pose, joints))
+}
+
+/// The readings of a rigid arm near joint values, and what it misses the pose by.
+#[inline]
+pub(super) fn rigid<S: Scalar, const N: usize, const K: usize, A>(
+    arm: &A,
+    pose: &Pose<S>,
+    joints: [S; N],
+) -> Result<([S; N], [S; 2]), Unstable>
+where
+    A: Inverse<N, K, S> + has::Pose<N, S> + has::Jacobian<N, S>,
+{
+    Rigid(arm, A::GIVEN).follow(joints, pose, (A::STEPS.unloaded, A::STEPS.readings))
 }
 
 /// The set-points of an arm that gives under its load and its weights: the readings at which its tool, at rest, stands at a
@@ -157,7 +169,7 @@ impl<const N: usize, const K: usize, S: Scalar, A> SetPoints<N, K, S> for A wher
 
 /// The readings at which the loaded arm is at rest near joint values, and what it misses the pose by.
 #[inline]
-fn at_rest<S: Scalar, const N: usize, const K: usize, A>(
+pub(super) fn at_rest<S: Scalar, const N: usize, const K: usize, A>(
     arm: &A,
     pose: &Pose<S>,
     joints: [S; N],

@@ -316,7 +316,10 @@ fn taken<const N: usize>(
 ) -> Result<usize, Unstable> {
     let under = Under(arm, wrench);
     let (pose, _) = under.stands(joints)?;
-    let begin = nearest_branch(arm.closed_form(&pose, joints), joints, &[None; N]);
+    // What a search has not found stays at the joint values themselves.
+    let found =
+        arm.closed_form(&pose, joints).into_iter().filter(|found| found.distance.is_finite());
+    let begin = nearest_branch(found, joints, &[None; N]);
     let Some(mut at) = begin.map(|begin| begin.q) else { return Ok(Steps::MOST) };
     for count in 0..Steps::MOST {
         let (_, missed) = under.follow(at, &pose, (0, arm.readings))?;

@@ -17,11 +17,8 @@ use crate::robot::{Convention, Joint, Robot, Value};
 /// force's share and y the moment's, `2x² + 2y² < h²` is enough.
 pub(super) fn margin(robot: &Robot, weights: bool) -> Option<[Number; 2]> {
     let beyond = &robot.beyond;
-    // Neither lengths nor loads are the table's then.
-    let told = !beyond.grows()
-        && beyond.wrench_scale.is_zero()
-        && beyond.load_point.iter().all(|x| x.is_zero());
-    let arm = Levers::of(robot).filter(|_| told)?;
+    // The lengths are not the table's where the arm grows.
+    let arm = Levers::of(robot).filter(|_| !beyond.grows())?;
     let n = robot.dof();
     if robot.joints.iter().filter(|joint| joint.stiffness.is_some()).count() < 3 {
         return None;
@@ -39,9 +36,12 @@ pub(super) fn margin(robot: &Robot, weights: bool) -> Option<[Number; 2]> {
         }
         sum.sqrt()
     };
-    let tool = magnitude(&robot.tool.translation)?;
-    let force = root(&|i, j| arm.lever(i.max(j), n - 1, tool));
-    let moment = root(&|i, j| if i == j { 0.0 } else { 0.5 });
+    // The wrench that is told may be scaled, and its force acts beside the tool's origin.
+    let scale = (1.0 + beyond.wrench_scale.to_f64()).abs();
+    let beside: f64 = beyond.load_point.iter().map(|x| x.to_f64().abs()).sum();
+    let tool = magnitude(&robot.tool.translation)? + beside;
+    let force = scale * root(&|i, j| arm.lever(i.max(j), n - 1, tool));
+    let moment = scale * root(&|i, j| if i == j { 0.0 } else { 0.5 });
     let mut room = 0.5;
     if weights {
         let gravity = magnitude(&robot.gravity)?;

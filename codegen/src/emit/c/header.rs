@@ -12,6 +12,7 @@ use crate::derive::Block;
 use crate::emit::docs::{ALL_ZERO, docs, inputs};
 use crate::emit::lines::Lines;
 use crate::ir;
+use crate::robot::ClosedForm;
 
 /// The header that belongs to `source`.
 pub(super) fn header(module: &Module, table: &Table, source: &str) -> String {
@@ -70,7 +71,7 @@ fn head(module: &Module, out: &mut Lines, table: &Table, hash: u64) {
  * Joint values are in rad (m), a wrench in N and N*m on the tool at its origin, {axes}.{given} Every
  * output is one column-major block: entry (row, column) of a matrix is out[column * ROWS + row].
  * out must not be NULL. Sines and cosines: {sines}.
- * No memory is allocated, nothing recurses, no loop depends on data. The polynomial reads the bits
+ * No memory is allocated, nothing recurses, {loops}. The polynomial reads the bits
  * of numbers through a union (MISRA C:2012 rule 19.2).
 {world} *
  * The table:
@@ -81,6 +82,10 @@ fn head(module: &Module, out: &mut Lines, table: &Table, hash: u64) {
         axes = if world.is_some() { "world axes" } else { "base axes" },
         asked = asked(module.ir.robot),
         given = given(module),
+        loops = match module.ir.robot.inverse_kinematics.is_some_and(ClosedForm::is_search) {
+            true => "every loop is bounded",
+            false => "no loop depends on data",
+        },
         world = world.as_deref().map_or(String::new(), |world| lines(&plain(world))),
         table = table.hash,
         real = module.language.real(),

@@ -23,7 +23,7 @@ use core::fmt;
 use self::function::Function;
 pub(super) use self::function::may_fail;
 use self::style::C;
-use super::{NotWritten, has_inverse, hash};
+use super::{NotWritten, hash};
 use crate::derive::Program;
 use crate::ir;
 use crate::robot::Robot;
@@ -89,7 +89,7 @@ impl core::error::Error for SymbolicTable {}
 /// The kernels of a robot as C99. The same table and options always give the same bytes.
 ///
 /// # Errors
-/// [`NotWritten`] where a cell of the table is no number, or the inverse kinematics is a search.
+/// [`NotWritten`] where a cell of the table is no number.
 pub fn c(robot: &Robot, options: &COptions) -> Result<CFiles, NotWritten> {
     c_with(robot, &[], options)
 }
@@ -100,7 +100,6 @@ pub(crate) fn c_with(
     own: &[&Program],
     options: &COptions,
 ) -> Result<CFiles, NotWritten> {
-    has_inverse(robot, true)?;
     let module = Module::new(robot, own, options, false)?;
     let table = hash::table(robot);
     let source = source::source(&module, &table);

@@ -1,29 +1,39 @@
-//! The arm as it is in NumPy, unloaded and at rest under a load: steps behind the closed form, for all branches at once.
+//! The arm as it is in NumPy, unloaded and at rest under a load: steps behind the closed form or the search, for all branches
+//! at once.
 
-use stiffarm_kernels::{Output, Steps};
+use stiffarm_kernels::{Axes, Output, Steps};
 
 use super::{Printer, check, docstring, of_state, parameters};
 use crate::derive::steps;
 use crate::emit::lines::Lines;
 use crate::ir::{Function, Module};
 use crate::robot::{
-    CLOSED_FORM, ClosedForm, DEFLECTION, ELBOW_ANGLE, Family, GIVES, INVERSE_KINEMATICS,
+    CLOSED_FORM, ClosedForm, DEFLECTION, ELBOW_ANGLE, Family, GIVES, INVERSE_KINEMATICS, Robot,
 };
 
 /// What each branch is followed by.
 const STEPS: &str = include_str!("steps.py");
 
+/// The search: the equations of the Rust kernels', whose roots NumPy finds as eigenvalues.
+const SEARCH: &str = include_str!("search.py");
+
 /// The functions, where the arm has them.
 pub(super) fn functions(module: &Module, out: &mut Lines) {
-    let Some(form) = module.robot.inverse_kinematics.filter(|form| !form.is_search()) else {
+    let Some(form) = module.robot.inverse_kinematics else {
         return;
     };
-    let exact = find(module, CLOSED_FORM).is_none();
+    let exact = !form.is_search() && find(module, CLOSED_FORM).is_none();
     let loaded = module.robot.has_set_points();
     if exact && !loaded {
         return;
     }
     out.verbatim(STEPS);
+    if form.is_search() {
+        out.verbatim(SEARCH);
+        out.verbatim("\n\n");
+        let axes = if module.robot.dof() == 7 { axes::<7> } else { axes::<6> };
+        axes(module.robot, out);
+    }
     if module.readings.moves {
         for of in at_joints(loaded).filter_map(|name| find(module, name)) {
             Printer { of, module, at_joints: true }.function(out);
@@ -37,6 +47,14 @@ pub(super) fn functions(module: &Module, out: &mut Lines) {
         let closed = if exact { INVERSE_KINEMATICS } else { CLOSED_FORM };
         function(module, (form, closed, counts), true, out);
     }
+}
+
+/// The axes, and the tool with the joint values at zero.
+fn axes<const N: usize>(robot: &Robot, out: &mut Lines) {
+    let Axes { lines, home } = robot.axes::<N>();
+    let columns = home.columns();
+    out.code(&format!("_AXES = np.array({lines:?})"));
+    out.code(&format!("_HOME = np.vstack([np.array({columns:?}).T, [0.0, 0.0, 0.0, 1.0]])"));
 }
 
 fn find<'m>(module: &'m Module, name: &str) -> Option<&'m Function> {
@@ -72,8 +90,12 @@ fn function(
     } else {
         "rigid arm's tool stands at a pose"
     };
+    let begin = match form.is_search() {
+        true => "as many as a search finds, at most sixteen in no order, nan behind them;",
+        false => "branch by branch: the closed form and",
+    };
     let said = [
-        format!("The readings at which the {load}, branch by branch: the closed form and {count} steps behind it."),
+        format!("The readings at which the {load}, {begin} {count} steps behind it."),
         "q: a column for each branch, in rad. distance: how far the tool's origin is from the target's, in m. tilt: how far \
          its axes are turned, twice the sine of half the angle. A branch in which the arm does not bear its load misses the \
          target by inf."
@@ -90,7 +112,17 @@ fn function(
         Family::ElbowAngle => format!(", {ELBOW_ANGLE}({first}q{handed_on})"),
         _ => String::new(),
     };
-    out.code(&format!("begin = {closed}({first}q{handed_on}, target{angle})[\"q\"]"));
+    let joints = |at: &str| match module.readings.moves {
+        true => format!("joints({at}{handed_on})"),
+        false => at.to_owned(),
+    };
+    let held = form.given.map_or("None".to_owned(), |joint| joint.to_string());
+    out.code(&match form.family {
+        Family::Search { third } => {
+            format!("begin = _search({}, target, {held}, {third})", joints("q"))
+        }
+        _ => format!("begin = {closed}({first}q{handed_on}, target{angle})[\"q\"]"),
+    });
     for (name, size) in &given[1..] {
         match (name.as_str(), size) {
             ("target", _) => {}
@@ -116,14 +148,9 @@ fn function(
         ),
         false => (pose, "0.0".to_owned()),
     };
-    let joints = match module.readings.moves {
-        true => format!("joints(at{handed_on})"),
-        false => "at".to_owned(),
-    };
-    let held = form.given.map_or("None".to_owned(), |joint| joint.to_string());
     out.within("return _follow(", ")", |out| {
         out.code(&format!("begin, target, {count}, {readings}, {held},"));
-        let of = [stands, jacobian, gives, joints];
+        let of = [stands, jacobian, gives, joints("at")];
         of.iter().for_each(|function| out.code(&format!("lambda at: {function},")));
     });
     out.dedent();

@@ -8,9 +8,10 @@ def _step(stands, jacobian, target):
     normal = across @ jacobian
     rounding = 8.0 * np.finfo(float).eps * np.trace(normal, axis1=-2, axis2=-1)
     damping = (error * error).sum(axis=-1) + rounding
-    normal = normal + damping[..., None, None] * np.eye(N)
+    one = np.eye(normal.shape[-1])
+    normal = normal + damping[..., None, None] * one
     known = np.isfinite(normal).all(axis=(-1, -2))[..., None, None]
-    return np.linalg.solve(np.where(known, normal, np.eye(N)), across @ error[..., None])[..., 0]
+    return np.linalg.solve(np.where(known, normal, one), across @ error[..., None])[..., 0]
 
 
 def _displaced(pose, by):

@@ -1,6 +1,7 @@
 //! The fourteen equations, the six that are left of them, and their determinant.
 
 use super::moved::{V3, cross, dot, plus};
+use crate::Scalar;
 
 /// The numbers of a line: l, p, p × l, (p·p) l − 2 (p·l) p, p·l, p·p, 1.
 type Numbers = [f64; 15];
@@ -171,7 +172,7 @@ impl Twelve {
                 let size = |(a, b): (f64, f64)| a * a + b * b;
                 if size(p) > size(m) { p } else { m }
             });
-            2.0 * libm::atan2(most.1, most.0)
+            2.0 * Scalar::atan2(most.1, most.0)
         };
         let fourth = angle(&mut (0..9).map(|k| (k, k + 3)));
         let fifth = angle(&mut (0..12).filter(|k| k % 3 < 2).map(|k| (k, k + 1)));
@@ -197,5 +198,5 @@ pub(super) fn first_two(rows: &Rows, [third, fourth, fifth]: [[f64; 2]; 3]) -> [
         x[k] = if pivot.abs() > 1e-12 { (sum - rest) / pivot } else { 0.0 };
     }
     // Columns are c_2, s_2, c_1, c_1 c_2, c_1 s_2, s_1, s_1 c_2, s_1 s_2.
-    [libm::atan2(x[5], x[2]), libm::atan2(x[1], x[0])]
+    [Scalar::atan2(x[5], x[2]), Scalar::atan2(x[1], x[0])]
 }

@@ -1,6 +1,6 @@
 //! Vectors and displacements.
 
-use crate::Pose;
+use crate::{Pose, Scalar};
 
 /// A vector.
 pub(super) type V3 = [f64; 3];
@@ -32,8 +32,10 @@ pub(super) fn turned(v: V3, z: V3, [c, s]: [f64; 2]) -> V3 {
     core::array::from_fn(|k| c * v[k] + s * across[k] + along * z[k])
 }
 
+/// Cosine and sine, by the kernels' own polynomial as all of the search: C has the same bits.
 pub(super) fn circle(angle: f64) -> [f64; 2] {
-    [libm::cos(angle), libm::sin(angle)]
+    let ([sine], [cosine]) = f64::sin_cos_all([angle]);
+    [cosine, sine]
 }
 
 impl Moved {

@@ -5,7 +5,7 @@ use core::f64::consts::TAU;
 use super::moved::circle;
 
 /// Values of the determinant around the circle. Its seventeen coefficients take seventeen.
-pub(super) const VALUES: usize = 24;
+const VALUES: usize = 24;
 
 /// Degree of the determinant in cos θ_3 and sin θ_3.
 const DEGREE: usize = 8;
@@ -80,12 +80,15 @@ pub(super) fn roots(c: &[Complex; DEGREE + 1]) -> [Complex; 2 * DEGREE] {
     z
 }
 
-/// The coefficients of what has these values around the circle.
-pub(super) fn coefficients(values: &[f64; VALUES]) -> [Complex; DEGREE + 1] {
+/// The coefficients of what has this value at each cosine and sine.
+pub(super) fn coefficients(value: impl Fn([f64; 2]) -> f64) -> [Complex; DEGREE + 1] {
+    let around: [[f64; 2]; VALUES] =
+        core::array::from_fn(|k| circle(TAU * k as f64 / VALUES as f64));
+    let values = around.map(value);
     core::array::from_fn(|m| {
         let each = values.iter().enumerate();
         each.fold([0.0; 2], |[a, b], (k, value)| {
-            let [c, s] = circle(TAU * (m * k % VALUES) as f64 / VALUES as f64);
+            let [c, s] = around[m * k % VALUES];
             [a + value * c, b - value * s]
         })
     })

@@ -1,6 +1,7 @@
-//! The arm as it is in C and CUDA, unloaded and at rest under a load: the Rust kernels' steps behind the closed form, operation by
-//! operation.
+//! The arm as it is in C and CUDA, unloaded and at rest under a load: the Rust kernels' steps behind the closed form or the
+//! search, operation by operation.
 
+mod search;
 mod text;
 
 use stiffarm_kernels::Steps;
@@ -42,20 +43,23 @@ struct Text {
     held: Option<usize>,
     /// Whether the elbow's angle is.
     elbow: bool,
+    /// Of a search, the joint in the middle of the equations.
+    third: Option<usize>,
 }
 
 impl Text {
     /// Of an arm of which they are written: not without sines, nor of the rigid arm where that has no steps.
     fn of(module: &Module, loaded: bool) -> Option<Text> {
         let form = module.ir.robot.inverse_kinematics?;
-        if form.is_search() {
-            return None;
-        }
+        let third = match form.family {
+            Family::Search { third } => Some(third),
+            _ => None,
+        };
         let written = module.options.sines != Sines::Given;
         let (name, real) = (module.name().to_owned(), module.language.real());
         let upper = name.to_uppercase();
         let find = |called: &str| module.ir.functions().find(|f| f.name() == called);
-        let exact = find(CLOSED_FORM).is_none();
+        let exact = third.is_none() && find(CLOSED_FORM).is_none();
         if !written || if loaded { !module.ir.robot.has_set_points() } else { exact } {
             return None;
         }
@@ -71,7 +75,12 @@ impl Text {
         };
         let given = [extras.iter().map(parameter).collect(), module.ir.readings.handed_on()];
         Some(Text {
-            closed: if exact { crate::robot::INVERSE_KINEMATICS } else { CLOSED_FORM },
+            closed: match third {
+                Some(_) => "search",
+                None if exact => crate::robot::INVERSE_KINEMATICS,
+                None => CLOSED_FORM,
+            },
+            third,
             links: tool.is_some_and(|tool| tool.entries.iter().any(|e| !e.is_zero())),
             loaded,
             loads: gives.is_some_and(|gives| !gives.arguments.is_empty()),
@@ -143,6 +152,11 @@ pub(in crate::emit) fn declared(module: &Module, out: &mut Lines) {
         let Text { name, real, steps: [count, _], branches, .. } = &text;
         let (head, function) = (text.head(), text.function());
         let what = match text.loaded {
+            _ if text.third.is_some() => format!(
+                "The readings at which the {} arm's tool stands at a pose, as many as a search finds and {count} steps
+ * behind it: a search, not a closed form, of at most sixteen solutions in no order.",
+                if text.loaded { "loaded" } else { "rigid" }
+            ),
             true => format!(
                 "The readings at which the loaded arm's tool stands at a pose, at rest under a wrench and its weights, branch by
  * branch: the closed form, {count} steps behind it, and what the springs give there."
@@ -170,6 +184,7 @@ typedef struct
 ",
             size = text.n * branches,
             infinite = match text.loaded {
+                _ if text.third.is_some() => "; infinite where\n * there is no solution.",
                 true => "; infinite where\n * the arm does not bear the load.",
                 false => ".",
             },
@@ -189,6 +204,9 @@ pub(in crate::emit) fn written(module: &Module, out: &mut Lines) {
         "{local} void {name}_posture_at(const {real} q[{n}]{parameters}, {name}_posture_t *posture)"
     ));
     out.braces(|out| module.fields(out, &module.ir.posture, false));
+    if let Some(third) = first.third {
+        out.verbatim(&search::search(first, third, module));
+    }
     if texts.iter().any(|text| text.steps[0] > 0) {
         out.verbatim(&step(first));
     }

@@ -346,6 +346,17 @@ pub(super) fn whole(text: &Text) -> String {
         ),
         false => (String::new(), String::new(), ""),
     };
+    let follows = format!(
+        "{name}_{branch}_of(joints{given}, target,{wrench} &out->q[{n}U * branch], &out->distance[branch],
+            &out->tilt[branch]) == 0"
+    );
+    let fails = match text.third {
+        Some(_) => {
+            let most = text.lit(f64::from(f32::MAX));
+            format!("(begin.distance[branch] > {most}) || ({follows})")
+        }
+        None => follows,
+    };
     format!(
         "
 {head}
@@ -359,8 +370,7 @@ pub(super) fn whole(text: &Text) -> String {
     {{
         const {real} *const joints = &begin.q[{n}U * branch];
 
-        if ({name}_{branch}_of(joints{given}, target,{wrench} &out->q[{n}U * branch], &out->distance[branch],
-            &out->tilt[branch]) == 0)
+        if ({fails})
         {{
             (void)memcpy(&out->q[{n}U * branch], joints, {n}U * sizeof joints[0]);
             out->distance[branch] = most + most;
