@@ -258,7 +258,7 @@ impl Args {
             (Emit::Mjcf, None) => mjcf(robot).map_err(|error| symbolic(robot, &error))?,
             (Emit::Base, None) => base(robot)?,
             (Emit::Rust, None) => rust(robot, &self.options()),
-            (Emit::Python, None) => python(robot).map_err(|error| refused(robot, &error))?,
+            (Emit::Python, None) => python(robot),
             (Emit::Cuda, None) => {
                 let options =
                     CudaOptions { name: self.c_name(source)?, precision: self.precision() };

@@ -265,7 +265,7 @@ fn said(compiler: &str, (id, outputs): (&str, &[&str]), input: &str) -> String {
             );
         }
         "python3" => {
-            folder.write("arm.py", &python(&robot).expect("every arm"));
+            folder.write("arm.py", &python(&robot));
             folder.write("main.py", &python_program(function, given, robot.dof()));
             let mut python = Command::new(compiler);
             python.arg("main.py").current_dir(folder.path());

@@ -70,7 +70,7 @@ fn of(case: &Case, seed: u64) -> Vec<String> {
         let array = format!("together[\"{}\"]{}", output.name(), rows(&output));
         calls.push_str(&format!("found.append(columns({array}))\n"));
     }
-    folder.write("arm.py", &python(&robot).expect("every arm"));
+    folder.write("arm.py", &python(&robot));
     folder.write("main.py", &MAIN.replace("OUTPUTS\n", &calls));
     let mut python = Command::new("python3");
     python.arg("main.py").current_dir(folder.path());

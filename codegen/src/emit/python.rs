@@ -5,24 +5,21 @@ mod as_it_is;
 
 use stiffarm_kernels::Form;
 
+use super::asked;
 use super::cells::world;
 use super::docs::{ALL_ZERO, docs, inputs};
 use super::hash::provenance;
 use super::legend::legend;
 use super::lines::{Lines, WIDTH};
 use super::literal::constant;
-use super::{NotWritten, asked};
 use crate::derive::{Held, Program, Size};
 use crate::ir::{Angle, Function, Module, Operation, Plain, Solve, Statement, Style, Term};
 use crate::number::Number;
 use crate::robot::Robot;
 
 /// The kernels of a robot as a module of Python that needs NumPy alone. The same table always gives the same bytes.
-///
-/// # Errors
-/// None: every arm is written.
-pub fn python(robot: &Robot) -> Result<String, NotWritten> {
-    Ok(python_with(robot, &[]))
+pub fn python(robot: &Robot) -> String {
+    python_with(robot, &[])
 }
 
 /// The same with functions of one's own.

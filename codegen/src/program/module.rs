@@ -71,11 +71,8 @@ impl<'r> Module<'r> {
     }
 
     /// The module in Python, like [`python`](crate::emit::python).
-    ///
-    /// # Errors
-    /// None: every arm is written.
-    pub fn python(&self) -> Result<String, NotWritten> {
-        Ok(python_with(self.robot, &self.programs()))
+    pub fn python(&self) -> String {
+        python_with(self.robot, &self.programs())
     }
 
     /// The file in CUDA C, like [`cuda`](crate::emit::cuda).
