@@ -9,7 +9,7 @@ use crate::plot::{number, ticks};
 /// Width of the picture, px.
 const WIDTH: f64 = 880.0;
 /// Bars stand between these, px.
-const LEFT: f64 = 250.0;
+const LEFT: f64 = 280.0;
 const RIGHT: f64 = 600.0;
 /// Height of a step, px.
 const STEP: f64 = 38.0;
