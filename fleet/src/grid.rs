@@ -19,6 +19,7 @@ use crate::cells::{Cells, source};
 /// Values of a joint beyond which a grid is a mistake.
 const MOST_STEPS: i64 = 1_000_000;
 
+/// The function.
 #[derive(Debug)]
 pub struct GridFunction {
     /// The robots that it knows.

@@ -11,6 +11,7 @@ use stiffarm_gap::report::Diagnosis;
 /// A campaign of an arm, and what its diagnosis says, or why there is none.
 #[derive(Clone, Debug)]
 pub struct Campaign {
+    /// The arm.
     pub arm: String,
     /// The campaign; an arm's are in the order of their names.
     pub name: String,
@@ -23,7 +24,9 @@ pub struct Campaign {
 /// Which columns of the table say what; all others are measurements.
 #[derive(Clone, Debug)]
 pub struct Columns {
+    /// The arm.
     pub arm: String,
+    /// Its campaign.
     pub campaign: String,
     /// The robot of a row, where `robot` is not given.
     pub robot: String,

@@ -33,9 +33,11 @@ pub struct Fleet {
 /// An arm as it is now.
 #[derive(Clone, Debug)]
 pub struct Line {
+    /// The arm.
     pub arm: String,
     /// Its model.
     pub robot: String,
+    /// The campaign.
     pub campaign: String,
     /// The gap of the robot file, with the findings, and the noise: m, or rad where no position is measured.
     pub gap: [f64; 3],
@@ -52,6 +54,7 @@ pub struct Frequency {
     pub robot: String,
     /// `joint compliance at joint 2`.
     pub finding: String,
+    /// Arms with it.
     pub arms: usize,
     /// Arms of the model.
     pub of: usize,

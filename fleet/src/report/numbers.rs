@@ -12,9 +12,13 @@ use stiffarm_gap::report::{Diagnosis, Parameter};
 pub struct What {
     /// The arms' model.
     pub robot: String,
+    /// The effect.
     pub effect: String,
+    /// Its place.
     pub place: String,
+    /// The number of it.
     pub number: String,
+    /// Its unit.
     pub unit: String,
 }
 

@@ -26,11 +26,13 @@ pub struct Pooled {
 /// An arm that is not like the others of its model.
 #[derive(Clone, Debug)]
 pub struct Outlier {
+    /// The arm.
     pub arm: String,
     /// In what.
     pub what: What,
     /// Its number.
     pub own: Estimate,
+    /// The others'.
     pub others: Pool,
     /// How often chance does that, among all that was looked at.
     pub p_value: f64,

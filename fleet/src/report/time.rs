@@ -6,6 +6,7 @@ use super::numbers::{What, by_arm, of, short};
 /// What is another at an arm.
 #[derive(Clone, Debug)]
 pub struct Change {
+    /// The arm.
     pub arm: String,
     /// The two campaigns.
     pub between: [String; 2],

@@ -6,6 +6,7 @@ use stiffarm::kernels::Scalar;
 pub trait Real: Scalar + PartialEq + 'static {
     /// Bytes of one number.
     const BYTES: usize;
+    /// Infinity.
     const INFINITY: Self;
     /// Not a number.
     const NAN: Self;
