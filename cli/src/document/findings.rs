@@ -68,10 +68,14 @@ pub fn told(findings: &[Found], most: usize, and: &str, said: impl Fn(&Found) ->
     let [large, small] = weighed(findings);
     let first = if large.len() > most { most - 1 } else { large.len() };
     let mut told: Vec<String> = large.iter().take(first).map(|(_, f)| said(f)).collect();
-    let more = [(large.len() - first, "more effect"), (small.len(), "small effect")];
-    let rest = more.iter().filter(|(count, _)| *count > 0);
-    told.extend(rest.map(|(count, what)| counted(*count, what)));
+    told.extend(unnamed(large.len() - first, small.len()));
     joined(&told, and)
+}
+
+/// `2 more effects`, `3 small effects`: what a sentence counts and does not name.
+pub fn unnamed(more: usize, small: usize) -> impl Iterator<Item = String> {
+    let each = [(more, "more effect"), (small, "small effect")].into_iter();
+    each.filter(|(count, _)| *count > 0).map(|(count, what)| counted(count, what))
 }
 
 impl Finding {

@@ -172,7 +172,8 @@ impl<'d> Points<'d> {
             points: vec![Vector3::zeros(); self.unknown + 1],
         };
         let open = if has_tool { self.unknown + 1 } else { self.unknown };
-        for _ in 0..TURNS {
+        // Where one of them alone is free, its closed form is exact.
+        for _ in 0..if has_base && open > 0 { TURNS } else { 1 } {
             if has_base {
                 for (session, base) in framed.bases.iter_mut().enumerate() {
                     let rows = (0..self.rows.len()).filter(|row| self.session[*row] == session);

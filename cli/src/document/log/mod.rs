@@ -12,7 +12,7 @@ use stiffarm_gap::report::{Alternative, Finding, Parameter};
 use stiffarm_kernels::generic::Arm;
 
 use super::figure::{self, LOG, Step};
-use super::findings::{steps, weighed};
+use super::findings::{steps, unnamed, weighed};
 use super::report::{Errors, Method, Report, explained};
 use super::words::{at, capital, gathered, joined, less, named, percent, words};
 use super::{Block, Cell, Document, Embedded, Row, Table, Unit};
@@ -165,9 +165,7 @@ impl Log<'_> {
         let both = both.filter(|(_, list)| !list.is_empty());
         let both: Vec<String> =
             both.map(|(verb, list)| format!("{verb} {}", joined(&list, " and "))).collect();
-        let rest = [(more, "more effect"), (small.len(), "small effect")].into_iter();
-        let rest: Vec<String> =
-            rest.filter(|(n, _)| *n > 0).map(|(n, what)| counted(n, what)).collect();
+        let rest: Vec<String> = unnamed(more, small.len()).collect();
         let beside = if rest.is_empty() { "" } else { ", beside " };
         format!("{}{beside}{}", both.join(" and "), joined(&rest, " and "))
     }
