@@ -6,6 +6,7 @@
 //! either; where no one spring is, both are told.
 
 use serde::{Deserialize, Serialize};
+use statrs::distribution::{ContinuousCDF, Normal};
 
 use crate::report::Word;
 
@@ -47,6 +48,11 @@ impl Spring {
     /// Half the width of its interval.
     pub fn half_width(&self) -> f64 {
         0.5 * (self.ci95[1] - self.ci95[0])
+    }
+
+    /// Standard deviation of the value, by an interval as of a normal number.
+    pub(crate) fn deviation(&self) -> f64 {
+        self.half_width() / Normal::standard().inverse_cdf(0.975)
     }
 
     /// The one spring that both are; `None` where the interval of their difference is without zero.

@@ -1,5 +1,5 @@
-//! A campaign and a log of one arm, diagnosed together: each by itself, and the joints' springs, which
-//! both see, by both.
+//! A campaign and a log of one arm, diagnosed together: the campaign's fit takes the joints' springs as the log has
+//! them, and both tell what they have of them.
 
 use serde::Serialize;
 use stiffarm_codegen::robot::Robot;

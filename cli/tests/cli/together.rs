@@ -72,6 +72,43 @@ fn one_spring_is_told_by_both_better_than_by_either() {
     assert!(page.matches("<iframe").count() == 2 && page.contains("Joint compliance"));
 }
 
+/// Six poses measured to 2 mm name something else, or nothing: the log's spring decides.
+#[test]
+fn what_the_log_knows_is_a_part_of_the_campaigns_search() {
+    let folder = Folder::new();
+    let robot = folder.file("elbow.toml", ELBOW);
+    let [campaign, log] = ["campaign.csv", "log.csv"].map(|name| folder.name(name));
+    let few = "--payload 5kg --poses 6 --measure position --noise-position 2mm";
+    let is_spring = |finding: &Value| {
+        (&finding["effect"], &finding["place"]) == (&"joint_compliance".into(), &"joint 2".into())
+    };
+    let mut named = [0, 0];
+    for seed in 11..=18 {
+        let spring = "--effect 'joint_compliance@joint 2=1e-4'";
+        run(&format!("simulate {robot} --csv {campaign} {few} --seed {seed} {spring}")).good();
+        let droop = "--logged position --lost 0% --effect 'servo_droop@joint 2=1e-4'";
+        run(&format!("simulate {robot} --log {log} --seed {seed} {droop}")).good();
+        let alone = run(&format!("diagnose {robot} {campaign} --json -")).json();
+        let both = run(&format!("diagnose {robot} {campaign} {log} --json -")).json();
+        for (named, found) in named.iter_mut().zip([&alone, &both["campaign"]]) {
+            let found = list(&found["findings"]);
+            *named += usize::from(found.len() == 1 && is_spring(&found[0]));
+        }
+    }
+    // Measured: 2 and 7 of 8; at seed 15 the campaign's own interval excludes the truth, as one in twenty does.
+    assert!(named[0] <= 4 && named[1] >= 7, "{named:?}");
+}
+
+/// What other effects would have to make up for is not taken from the log.
+#[test]
+fn a_spring_that_the_rows_contradict_changes_nothing_else() {
+    let folder = Folder::new();
+    let [robot, campaign, log] = data(&folder, 2.0 * GIVES);
+    let alone = run(&format!("diagnose {robot} {campaign} --json -")).json();
+    let both = run(&format!("diagnose {robot} {campaign} {log} --json -")).json();
+    assert_eq!(alone["findings"], both["campaign"]["findings"]);
+}
+
 #[test]
 fn springs_that_differ_are_said_to() {
     let folder = Folder::new();

@@ -53,7 +53,7 @@ impl Search<'_, '_> {
         let start = begun.without_states();
         let explained = match known {
             Some(model) => self.explain(self.begin(model)?)?,
-            None if is_there => self.explain(begun)?,
+            None if is_there => self.explain(self.with_springs_of_log(begun)?)?,
             None => begun,
         };
         Ok(Looked { start, before, is_there, cannot_see, gauge, places, parts, explained })

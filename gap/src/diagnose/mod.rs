@@ -52,7 +52,7 @@ pub use crate::report::campaign as report;
 pub use crate::report::campaign::*;
 pub use crate::report::{Alternative, Parameter as ParameterReport};
 pub use crate::shrink::Shrink;
-use crate::spring::Joined;
+use crate::spring::{Joined, Spring};
 use data::{Folds, Precision};
 use fit::{Axes, Model};
 use normal_equations::Candidate;
@@ -82,6 +82,8 @@ pub struct BesideLog {
     pub springs: Vec<Joined>,
     /// The model with the springs that both tell, and everything else fitted beside them.
     pub explanation: Explanation,
+    /// Joints whose springs the rows contradict.
+    contradicted: Vec<usize>,
 }
 
 /// Tells where the gap between `arm` and `data` comes from.
@@ -126,21 +128,33 @@ pub fn diagnose_with(
         mistaken = Some(told);
         options.nuisances.extend(frames);
     }
-    let mut diagnosed = diagnose_as_told(arm, data, &options, progress)?;
+    let mut diagnosed = diagnose_as_told(arm, data, &options, &[], progress)?;
+    // In one fit a spring that is not the rows' would be made up for by other effects: they are asked without it first.
+    let (mut springs, mut agree) = (Vec::new(), options.springs.clone());
+    while let Some(beside_log) = &diagnosed.beside_log {
+        agree.retain(|spring| !beside_log.contradicted.contains(&spring.joint));
+        if agree == springs {
+            break;
+        }
+        springs.clone_from(&agree);
+        diagnosed = diagnose_as_told(arm, data, &options, &springs, progress)?;
+    }
     diagnosed.diagnosis.mistaken = mistaken;
     Ok(Diagnosed { mended, ..diagnosed })
 }
 
-/// The same of an arm and rows that are taken to mean what they say.
+/// The same of an arm and rows that are taken to mean what they say, in one fit with `springs` of a log.
 fn diagnose_as_told(
     arm: &Arm,
     data: &Measurements,
     options: &Options,
+    springs: &[Spring],
     progress: &(dyn Fn(Stage) + Sync),
 ) -> Result<Diagnosed, DiagnoseError> {
     let effects = options.effects()?;
     let mut problem = Problem::new(arm, data, options)?;
     problem.precision = Precision::of(data);
+    problem.springs = springs.to_vec();
     let folds = Folds::deal(data, options)?;
     enough_rows(&problem, &folds)?;
     let compared: Vec<_> = options
@@ -237,9 +251,14 @@ fn diagnose_as_told(
         [] => None,
         of_log => {
             let slides = |joint: usize| arm.joints[joint].motion == Motion::Prismatic;
-            let springs = Joined::all(&search.springs(&explained)?, of_log, slides);
+            let own = search.springs(&explained)?;
+            let springs = Joined::all(&own, of_log, slides);
             let explanation = told(search.beside_springs(&explained, &springs)?);
-            Some(BesideLog { springs, explanation })
+            let differs = |own: &&Spring| {
+                of_log.iter().any(|other| other.joint == own.joint && other.and(own).is_none())
+            };
+            let contradicted = own.iter().filter(differs).map(|own| own.joint).collect();
+            Some(BesideLog { springs, explanation, contradicted })
         }
     };
     let explanation = told(explained);

@@ -88,7 +88,7 @@ pub struct Options {
     /// Whether the search is run again for each fold on the others, and the gap told that it leaves:
     /// as many times the work.
     pub nested: bool,
-    /// What a log tells of the joints' springs, to be told together with what the rows do.
+    /// What a log tells of the joints' springs: further measurements of these, as far as the rows do not contradict them.
     pub springs: Vec<Spring>,
     /// Whether rows that do not fit are fitted and counted all the same.
     pub keep_all: bool,

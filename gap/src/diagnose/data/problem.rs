@@ -16,6 +16,7 @@ use crate::gap::Statistics;
 use crate::measurement::{Kind, Measurements, Row};
 use crate::observe::{Aim, Pair, Seen};
 use crate::simulate::{Actual, Moments, Reading, Sim};
+use crate::spring::Spring;
 
 /// Readings, loads, places and gaps stay below this, N, N·m, m and rad: their squares, weighted and
 /// added up, are then finite.
@@ -69,6 +70,8 @@ pub(crate) struct Problem<'a> {
     pub(crate) bench_of: Vec<Option<usize>>,
     /// Points of the bench whose distance is known, and where they are.
     pub(crate) pairs: Vec<(Pair, [Place; 2])>,
+    /// The joints' springs as a log has them.
+    pub(crate) springs: Vec<Spring>,
     /// Rows that have an unknown constant of their own, so that only what sets them apart counts;
     /// all rows stand in one of these sets, or there are none.
     pub(crate) constants: Vec<Vec<usize>>,
@@ -194,6 +197,7 @@ impl<'a> Problem<'a> {
             bench,
             bench_of,
             pairs,
+            springs: Vec::new(),
             constants: Vec::new(),
             fits,
             precision: Precision::default(),

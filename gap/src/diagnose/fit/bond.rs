@@ -1,23 +1,26 @@
-//! What is known of the bench beside the rows: distances between its points and what a lens is near, told to the fit
-//! as further measurements of its constants.
+//! What is known beside the rows: distances between points of the bench, what a lens is near, the joints' springs as a
+//! log has them. The fit takes them as further measurements of its parameters.
 
 use nalgebra::{DMatrix, DVector, Vector3};
 
 use super::model::Model;
 use crate::diagnose::data::{Problem, Thing};
 use crate::observe::{Pair, View};
+use crate::spring::Spring;
 
-/// A measurement of constants alone.
+/// A measurement of parameters alone.
 pub(crate) struct Bond {
     /// Its derivatives by some parameters of the model, over its standard deviation.
-    columns: Vec<(usize, f64)>,
+    pub(crate) columns: Vec<(usize, f64)>,
     /// Measured minus fitted, over the same.
-    left: f64,
+    pub(crate) left: f64,
+    /// The joint whose spring it measures, which the model may lack, and its derivative by that, over the same.
+    pub(crate) spring: Option<(usize, f64)>,
 }
 
 impl Bond {
-    /// All of a model.
-    pub(super) fn all(problem: &Problem<'_>, model: &Model) -> Vec<Bond> {
+    /// All of a model, at its values.
+    pub(crate) fn all(problem: &Problem<'_>, model: &Model) -> Vec<Bond> {
         let begins = Model::begins_of_bench(problem);
         let of_pair = |(pair, places): &(Pair, [Place; 2])| {
             let (left, by_first) = pair.weighed(places.map(|place| place.at(model)));
@@ -27,7 +30,7 @@ impl Bond {
                     columns.extend((0..3).map(|k| (begins[*thing] + k, by[k])));
                 }
             }
-            Bond { columns, left }
+            Bond { columns, left, spring: None }
         };
         let of_lens = |(number, (thing, view)): (usize, (&Thing, &View))| {
             let free = thing.aim.free.iter().enumerate();
@@ -36,11 +39,34 @@ impl Bond {
                 Some((k, left, by))
             });
             let begin = begins[number];
-            let bond = move |(k, left, by)| Bond { columns: vec![(begin + k, by)], left };
+            let columns = move |k: usize, by: f64| vec![(begin + k, by)];
+            let bond = move |(k, left, by)| Bond { columns: columns(k, by), left, spring: None };
             of.map(bond).collect::<Vec<_>>()
         };
+        let of_spring = |spring: &Spring| {
+            let more = spring.value - problem.arm.joints[spring.joint].compliance;
+            let by = 1.0 / spring.deviation();
+            let own = model.found.iter().position(|found| found.is_spring_of(spring.joint));
+            let before =
+                own.map(|own| model.found[..own].iter().map(|f| f.values.len()).sum::<usize>());
+            let at = before.map(|before| Model::nuisances(problem) + before);
+            Bond {
+                columns: at.map(|at| (at, by)).into_iter().collect(),
+                left: by * (more - own.map_or(0.0, |own| model.found[own].values[0])),
+                spring: Some((spring.joint, by)),
+            }
+        };
         let things = problem.bench.iter().zip(&model.bench).enumerate();
-        problem.pairs.iter().map(of_pair).chain(things.flat_map(of_lens)).collect()
+        let of_bench = problem.pairs.iter().map(of_pair).chain(things.flat_map(of_lens));
+        of_bench.chain(problem.springs.iter().map(of_spring)).collect()
+    }
+
+    /// The same of some of the parameters (ascending), the values `back` of all given back to what is left.
+    pub(crate) fn chosen(&self, kept: &[usize], back: &[f64]) -> Bond {
+        let given_back = self.columns.iter().map(|(at, by)| by * back[*at]).sum::<f64>();
+        let own = |(at, by): &(usize, f64)| Some((kept.binary_search(at).ok()?, *by));
+        let columns = self.columns.iter().filter_map(own).collect();
+        Bond { columns, left: self.left + given_back, spring: self.spring }
     }
 
     /// Adds it to normal equations whose first parameters are the model's.

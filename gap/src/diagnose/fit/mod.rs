@@ -16,7 +16,7 @@ mod refit;
 
 pub(crate) use align::{aligned, fitted_thing, rigid};
 pub(crate) use axes::Axes;
-pub(crate) use bond::Place;
+pub(crate) use bond::{Bond, Place};
 pub(crate) use model::{Fitted, Model, Predicted};
 pub(crate) use refit::{
     Fit, block, normal_equations, prior_penalty, refit, refit_below, squares, step,

@@ -13,7 +13,7 @@ use crate::diagnose::data::{LARGEST, Problem, Thing};
 use crate::diagnose::normal_equations::Candidate;
 use crate::diagnose::options::{DiagnoseError, Nuisance};
 use crate::displacement::Displacement;
-use crate::effects::{Effect, Place, Scene, Spot};
+use crate::effects::{Effect, JOINT_SPRING, Place, Scene, Spot};
 use crate::gap::row_gap;
 use crate::observe::View;
 use crate::simulate::{Actual, Moment, Sim, Site, State};
@@ -32,6 +32,13 @@ pub(crate) struct Fitted {
     pub(crate) multiplicity: usize,
     /// By how much more evidence it had than any other when last compared; 0 before.
     pub(crate) margin: f64,
+}
+
+impl Fitted {
+    /// Whether it is the spring of a joint (from 0).
+    pub(crate) fn is_spring_of(&self, joint: usize) -> bool {
+        self.effect == JOINT_SPRING && self.spot == Spot::at(Place::Joint(joint + 1))
+    }
 }
 
 /// An exact model of the data.
@@ -333,7 +340,7 @@ impl Model {
     }
 
     /// Adds to normal equations whose first parameters are the model's what holds them: each loosely to what is
-    /// usual, and the bench's constants to what is known beside the rows.
+    /// usual, and some to what is known beside the rows.
     pub(crate) fn hold(
         &self,
         problem: &Problem<'_>,
@@ -344,12 +351,7 @@ impl Model {
             normal[(at, at)] += held * held;
             right[at] -= held * held * value;
         }
-        self.bonds(problem).iter().for_each(|bond| bond.add(normal, right));
-    }
-
-    /// What is known of the bench beside the rows.
-    pub(crate) fn bonds(&self, problem: &Problem<'_>) -> Vec<Bond> {
-        Bond::all(problem, self)
+        Bond::all(problem, self).iter().for_each(|bond| bond.add(normal, right));
     }
 
     /// The values of all parameters, those of the nuisances as 0.

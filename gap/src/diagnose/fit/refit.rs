@@ -160,12 +160,12 @@ pub(crate) fn normal_equations(
     (normal, right)
 }
 
-/// What it costs that values are beyond what is usual, and against what is known of the bench.
+/// What it costs that values are beyond what is usual, and against what is known beside the rows.
 pub(crate) fn prior_penalty(problem: &Problem<'_>, model: &Model) -> f64 {
     let values = model.values(problem);
     let held = model.held(problem);
     let usual: f64 = held.iter().zip(values).map(|(h, value)| (h * value).powi(2)).sum();
-    usual + model.bonds(problem).iter().map(Bond::square).sum::<f64>()
+    usual + Bond::all(problem, model).iter().map(Bond::square).sum::<f64>()
 }
 
 /// Weighted 6×k block of one row.

@@ -6,7 +6,9 @@ use super::probe::{About, Probe};
 use crate::diagnose::data::Problem;
 use crate::diagnose::fit::Fitted;
 use crate::diagnose::prior::Prior;
-use crate::effects::{Carrier, Effect, Forms, Parameter, Place, Quantity, Scene, Spot};
+use crate::effects::{
+    Carrier, Effect, Forms, JOINT_SPRING, Parameter, Place, Quantity, Scene, Spot,
+};
 use crate::infer::constants::LOOSE;
 
 /// An effect at a spot, or a probe: some numbers and what they do to the tool.
@@ -165,6 +167,11 @@ impl Candidate {
             Source::Effect { effect, spot, .. } => Some((*effect, *spot)),
             Source::Probe(_) => None,
         }
+    }
+
+    /// Whether it is the spring of a joint (from 0).
+    pub(super) fn is_spring_of(&self, joint: usize) -> bool {
+        self.effect() == Some((JOINT_SPRING, Spot::at(Place::Joint(joint + 1))))
     }
 
     /// Whether it is told by the order in which rows were measured.

@@ -1,14 +1,16 @@
 //! The candidates against a model of a campaign: some of the gathered columns are the model's, each
 //! parameter and each candidate's number held to what is usual of it.
 
+use std::sync::Arc;
+
 use nalgebra::DVector;
 use rayon::prelude::*;
 
 use super::candidate::Candidate;
 use super::gather::Gathered;
 use crate::diagnose::data::{Folds, Problem};
-use crate::diagnose::fit::Model;
-use crate::infer::{self, Basis, Choice, Columns, Products};
+use crate::diagnose::fit::{Bond, Model};
+use crate::infer::{self, Basis, Choice, Columns, Products, starts};
 
 /// The candidates against a fitted model.
 pub(crate) type Screen<'c> = infer::Screen<'c, Candidate>;
@@ -84,6 +86,8 @@ impl<'c> Screen<'c> {
         if !kept.free {
             prior.hold(candidates);
         }
+        let candidates_told = if kept.free { &[] } else { candidates };
+        hold_together(problem, model, &choice, candidates_told, &mut prior);
         let mut total = gathered.total.chosen(&choice);
         total.add(&prior);
         let basis = Basis::new(&total.zz);
@@ -111,10 +115,32 @@ fn held(problem: &Problem<'_>, model: &Model, choice: &Choice, sizes: &[usize]) 
         products.zr[at] = -weight * values[column];
         products.rr += weight * values[column].powi(2);
     }
-    // The constants of the bench are kept, and before all else.
-    for bond in model.bonds(problem) {
+    products
+}
+
+/// Adds the products of what is known beside the rows: of parameters that stay, and of candidates that the model lacks.
+fn hold_together(
+    problem: &Problem<'_>,
+    model: &Model,
+    choice: &Choice,
+    candidates: &[Candidate],
+    products: &mut Products,
+) {
+    let values = model.values(problem).into_iter().enumerate();
+    let is_kept = |at: usize| choice.kept.binary_search(&at).is_ok();
+    let back: Vec<f64> = values.map(|(at, x)| if is_kept(at) { 0.0 } else { x }).collect();
+    let numbers = starts(&candidates.iter().map(|c| c.size).collect::<Vec<_>>());
+    for bond in Bond::all(problem, model) {
+        let bond = bond.chosen(&choice.kept, &back);
         bond.add(&mut products.zz, &mut products.zr);
         products.rr += bond.square();
+        let Some((joint, by)) = bond.spring else { continue };
+        let lacking = candidates.iter().enumerate().filter(|(_, c)| c.is_spring_of(joint));
+        for (candidate, _) in lacking {
+            let number = numbers[candidate];
+            bond.columns.iter().for_each(|(at, with)| products.zx[(*at, number)] += by * with);
+            products.xr[number] += by * bond.left;
+            Arc::make_mut(&mut products.xx)[candidate][(0, 0)] += by * by;
+        }
     }
-    products
 }

@@ -22,7 +22,8 @@ impl Observations for Search<'_, '_> {
     }
 
     fn scale(&self, now: &Explained) -> Scale {
-        Scale { known: now.noise.is_known(), numbers: self.problem.numbers(), independent: 1.0 }
+        let numbers = self.problem.numbers() + self.problem.springs.len();
+        Scale { known: now.noise.is_known(), numbers, independent: 1.0 }
     }
 
     fn left_by(&self, now: &Explained, by: &Explained) -> f64 {

@@ -4,7 +4,7 @@ use nalgebra::{Cholesky, DMatrix, DVector, Dyn, Vector6};
 use rayon::prelude::*;
 
 use crate::diagnose::data::{Folds, Problem};
-use crate::diagnose::fit::{Fit, Model, block};
+use crate::diagnose::fit::{Bond, Fit, Model, block};
 use crate::diagnose::options::DiagnoseError;
 use crate::diagnose::search::{Explained, Search};
 use crate::effects::At;
@@ -101,9 +101,9 @@ impl<'h> Held<'h> {
         let mut matrix = rows.zz.select_rows(kept).select_columns(kept);
         kept.iter().enumerate().for_each(|(k, at)| matrix[(k, k)] += held[*at].powi(2));
         let mut right = rows.zr.select_rows(kept);
-        // The constants of the bench are kept, and before all else.
-        for bond in self.fit.model.bonds(self.problem) {
-            bond.add(&mut matrix, &mut right);
+        let back = self.fit.model.values(self.problem);
+        for bond in Bond::all(self.problem, &self.fit.model) {
+            bond.chosen(kept, &back).add(&mut matrix, &mut right);
         }
         let found = match matrix.clone().cholesky().filter(|root| is_decided(root, &matrix)) {
             Some(root) => root.solve(&right),

@@ -62,7 +62,7 @@ impl Search<'_, '_> {
             let evidence = (screen.left() - one.score.drop) / variance + one.cost - own;
             let weak = evidence <= WEAK || !at_noise;
             let apart = evidence > DISTINGUISHABLE
-                && !(weak && self.is_chance(&screen, one, &own_blocks, variance));
+                && !(weak && self.is_chance(&screen, one, &own_blocks, [variance, evidence]));
             let held_out = screen.held_out(&trained, Some(one.candidate));
             let alternative = Alternative {
                 effect: effect.identifier().into(),
@@ -106,8 +106,15 @@ impl Search<'_, '_> {
         self.folds.per_block(&sizes)
     }
 
-    /// Whether the rival's excess, block by block, scatters so much that it may be chance.
-    fn is_chance(&self, screen: &Screen<'_>, one: &Ranked, own: &[f64], variance: f64) -> bool {
+    /// Whether the rival's excess, block by block, scatters so much that it may be chance. What a log tells is a part of
+    /// the evidence that is in no block.
+    fn is_chance(
+        &self,
+        screen: &Screen<'_>,
+        one: &Ranked,
+        own: &[f64],
+        [variance, evidence]: [f64; 2],
+    ) -> bool {
         let range = screen.range(one.candidate);
         let x = &one.score.values;
         let z = &screen.total.zr - screen.total.zx.columns_range(range.clone()) * x;
@@ -126,7 +133,8 @@ impl Search<'_, '_> {
         let count = excess.len() as f64;
         let sum: f64 = excess.iter().sum();
         let spread: f64 = excess.iter().map(|e| (e - sum / count).powi(2)).sum();
-        sum <= 2.0 * spread.sqrt()
+        let told = if self.problem.springs.is_empty() { sum } else { sum.max(evidence) };
+        told <= 2.0 * spread.sqrt()
     }
 
     /// The chance that the best of all that were tried explains as much of noise as `finding` does.
