@@ -95,7 +95,7 @@ fn the_origins_of_xacro_are_the_arm() {
         [real(), built_in("stanford", base), built_in("kuka_kr240", ""), built_in("panda", "")];
     for (text, arm) in arms {
         let file = folder.file("arm.toml", &text);
-        let written = stiffarm(&["controller", &file, "--format", "xacro"]).good();
+        let written = stiffarm(&["controller", &file, "--format", "xacro", "--quiet"]).good();
         let lists =
             written.lines().filter_map(|line| line.split_once("value=\"")?.1.strip_suffix("\"/>"));
         let triple = |list: &str| -> [f64; 3] {
