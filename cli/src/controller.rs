@@ -1,11 +1,11 @@
 //! `stiffarm controller`: what was found, as the files that controllers take.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 use nalgebra::Isometry3;
 use stiffarm_gap::controller::{
-    ControllerError, Holds, calibration, joint_limits, kinematics, lost, mastering,
+    ControllerError, Holds, calibration, joint_limits, kinematics, lost, mastering, model, origins,
 };
 use stiffarm_gap::effects::Known;
 use stiffarm_kernels::generic::Arm;
@@ -22,6 +22,7 @@ Examples:
   stiffarm controller better.toml --format ur-kinematics --hash calib_17227329492635474227 --out kinematics.yaml
   stiffarm controller better.toml --format kuka-mastering --nominal arm.toml --into '$machine.dat' --out new.dat
   stiffarm controller better.toml --format joint-limits --out joint_limits.yaml
+  stiffarm controller better.toml --format xacro --out origins.xacro
 
 A file holds what its format can: the zeros of the axes, or whole rows of the table. Everything else that the
 robot file has is named and lost; `stiffarm compensate --program` corrects programs by all of it.";
@@ -35,7 +36,8 @@ pub struct Args {
     /// Which file
     #[arg(long, value_enum)]
     format: Format,
-    /// The robot as its controller computes it: a robot file, or the id of a built-in robot
+    /// The robot as its controller computes it: a robot file, the id of a built-in robot, or urcontrol.conf of a
+    /// Universal Robots controller (a file that ends with .conf)
     #[arg(long, value_name = "ROBOT")]
     nominal: Option<String>,
     /// The controller's own file, of which what was found is changed and nothing else
@@ -59,14 +61,15 @@ enum Format {
     KukaMastering,
     /// joint_limits.yaml of ros2_control and MoveIt: the limits of positions
     JointLimits,
+    /// The origins of the joints and of the tool as properties of xacro
+    Xacro,
 }
 
 pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     args.go_together()?;
     let source = args.robot.load(host)?;
     let real = source.arm()?;
-    let named = args.nominal.as_deref().map(|robot| RobotArgs::named(robot).load(host));
-    let nominal = named.transpose()?.map(|nominal| nominal.arm()).transpose()?;
+    let nominal = args.nominal.as_deref().map(|robot| computed(robot, host)).transpose()?;
     let has = |arm: &Arm| arm.joints.len();
     if let Some(found) = nominal.as_ref().map(has).filter(|found| *found != has(&real)) {
         let message = format!("--nominal: found {found} joints, expected {}", has(&real));
@@ -97,6 +100,7 @@ pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
         (Format::UrKinematics, ..) => {
             kinematics(&real, args.hash.as_deref().unwrap_or("calib_unknown")).map_err(told)?.into()
         }
+        (Format::Xacro, ..) => origins(&real, &names(&source), lost.as_deref()).into(),
         _ => joint_limits(&real, &names(&source)).map_err(told)?.into(),
     };
     // YAML has comments, too.
@@ -119,14 +123,16 @@ impl Args {
     /// What the format does not hold, a sentence.
     fn lost(&self, nominal: Option<&Arm>, real: &Arm, source: &Source) -> Option<String> {
         let holds = match self.format {
-            Format::UrCalibration | Format::UrKinematics => Holds::Rows,
+            Format::UrCalibration | Format::UrKinematics | Format::Xacro => Holds::Rows,
             Format::KukaMastering => Holds::Zeros,
             // Limits are not what was found: nothing of that is asked for.
             Format::JointLimits => return None,
         };
-        // A kinematics file has the whole table: what it lacks is what stands around it.
-        let bare =
-            || Arm { base: Isometry3::identity(), tool: Isometry3::identity(), ..real.clone() };
+        // A kinematics file has the whole table: what it lacks is what stands around it, which origins have, too.
+        let bare = || match self.format {
+            Format::Xacro => real.clone(),
+            _ => Arm { base: Isometry3::identity(), tool: Isometry3::identity(), ..real.clone() },
+        };
         let mut lost = lost(&nominal.cloned().unwrap_or_else(bare), real, holds);
         let name = |id: &str, place: &dyn std::fmt::Display| {
             format!("{} at {place}", id.replace('_', " "))
@@ -161,6 +167,18 @@ impl Args {
             }
         }
         Ok(())
+    }
+}
+
+/// The robot as its controller computes it.
+fn computed(robot: &str, host: &Host) -> Result<Arm, Failure> {
+    let path = Path::new(robot);
+    match path.extension() {
+        Some(end) if end == "conf" => {
+            let model = model(&host.read(path)?);
+            model.map_err(|error| Failure::new(format!("{robot}: {error}")))
+        }
+        _ => RobotArgs::named(robot).load(host)?.arm(),
     }
 }
 

@@ -41,8 +41,8 @@ struct Program {
 /// What a command has told so far.
 #[derive(Clone, Debug, Default)]
 pub struct Heard {
-    /// Texts, each with the name of its file; `-` is what a terminal would show.
-    pub written: Vec<(String, String)>,
+    /// Bytes, each with the name of its file; `-` is what a terminal would show.
+    pub written: Vec<(String, Vec<u8>)>,
     /// What the user should know.
     pub remarks: Vec<String>,
     /// What is being done, and what part of it is, from 0 to 1, where that is known.
@@ -180,7 +180,7 @@ impl Host {
     /// Prints to standard output.
     pub(crate) fn print(&self, text: &str) -> Result<(), Failure> {
         let Some(program) = &self.program else { return output::print(text) };
-        program.write("-", text);
+        program.write("-", text.as_bytes());
         Ok(())
     }
 
@@ -189,7 +189,7 @@ impl Host {
         match (target, &self.program) {
             (Target::Stdout, _) => return self.print(text),
             (Target::File(path), Some(program)) if self.owns(path) => {
-                program.write(&path.display().to_string(), text);
+                program.write(&path.display().to_string(), text.as_bytes());
             }
             (Target::File(path), _) => {
                 return output::file(path, text.as_bytes())
@@ -205,18 +205,18 @@ impl Host {
         target: &Target,
         write: &mut dyn FnMut(&mut dyn Write) -> io::Result<bool>,
     ) -> Result<(), Failure> {
-        let is_held = match target {
-            Target::Stdout => self.program.is_some(),
-            Target::File(path) => self.owns(path),
+        let (program, name) = match (target, &self.program) {
+            (Target::Stdout, Some(program)) => (program, "-".to_owned()),
+            (Target::File(path), Some(program)) if self.owns(path) => {
+                (program, path.display().to_string())
+            }
+            _ => return target.stream(write),
         };
-        if !is_held {
-            return target.stream(write);
-        }
         let mut held = Vec::new();
-        match write(&mut held).map_err(|error| Failure::new(error.to_string()))? {
-            true => self.write(target, &String::from_utf8_lossy(&held)),
-            false => Ok(()),
+        if write(&mut held).map_err(|error| Failure::new(error.to_string()))? {
+            program.write(&name, &held);
         }
+        Ok(())
     }
 
     /// Writes what `text` is to where it was asked for, if it was.
@@ -258,8 +258,8 @@ impl Program {
         self.heard().remarks.push(text.trim_end().to_owned());
     }
 
-    fn write(&self, name: &str, text: &str) {
-        self.heard().written.push((name.to_owned(), text.to_owned()));
+    fn write(&self, name: &str, bytes: &[u8]) {
+        self.heard().written.push((name.to_owned(), bytes.to_owned()));
     }
 
     fn heard(&self) -> MutexGuard<'_, Heard> {

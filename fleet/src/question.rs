@@ -54,7 +54,8 @@ impl Question {
             }),
             Question::Identify => stiffarm_cli::run(&host).map(|done| {
                 let told = host.take().written.into_iter().filter(|(name, _)| name == "-");
-                done.map(|_| told.map(|(_, text)| text).collect())
+                let text = |(_, bytes): (_, Vec<u8>)| String::from_utf8_lossy(&bytes).into_owned();
+                done.map(|_| told.map(text).collect())
             }),
         };
         match answered {

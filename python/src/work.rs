@@ -10,6 +10,7 @@ use std::time::Duration;
 use pyo3::create_exception;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use pyo3::types::PyBytes;
 use stiffarm_cli::host::{Ended, Host};
 use stiffarm_cli::{Failure, Remark};
 
@@ -71,7 +72,7 @@ pub fn wait<T: Send + 'static>(
     py: Python<'_>,
     host: &Host,
     hear: &Bound<'_, PyAny>,
-    mut written: impl FnMut(String, String),
+    mut written: impl FnMut(String, Vec<u8>),
     work: impl FnOnce(&Host) -> Result<Result<T, Failure>, Ended> + Send + 'static,
 ) -> PyResult<T> {
     let (send, mut receive) = mpsc::sync_channel(1);
@@ -89,7 +90,7 @@ pub fn wait<T: Send + 'static>(
             (receive, done)
         });
         let heard = host.take();
-        heard.written.into_iter().for_each(|(name, text)| written(name, text));
+        heard.written.into_iter().for_each(|(name, bytes)| written(name, bytes));
         let told = tell(hear, heard.remarks, heard.doing).and_then(|()| py.check_signals());
         if let Err(error) = told {
             if stopped.is_some() {
@@ -131,19 +132,18 @@ fn tell(hear: &Bound<'_, PyAny>, remarks: Vec<String>, doing: Doing) -> PyResult
 /// Runs a command of stiffarm.
 ///
 /// `words` are those of the command line, `files` the bytes of those that are on no disk. What is written to
-/// `-` and to names that begin with `<` is returned, by name; the first of the pair is whether all was as it should.
+/// `-` and to names that begin with `<` is returned as bytes, by name; the first of the pair is whether all was as it should.
 #[pyfunction]
 #[pyo3(signature = (words, files, hear))]
-pub fn run(
-    py: Python<'_>,
+pub fn run<'py>(
+    py: Python<'py>,
     words: Vec<String>,
     files: HashMap<String, Vec<u8>>,
-    hear: &Bound<'_, PyAny>,
-) -> PyResult<(bool, HashMap<String, String>)> {
+    hear: &Bound<'py, PyAny>,
+) -> PyResult<(bool, HashMap<String, Bound<'py, PyBytes>>)> {
     let host = Host::new(words, files);
-    let mut all: HashMap<String, String> = HashMap::new();
-    let good = wait(py, &host, hear, |name, text| all.entry(name).or_default().push_str(&text), {
-        stiffarm_cli::run
-    })?;
-    Ok((good, all))
+    let mut all: HashMap<String, Vec<u8>> = HashMap::new();
+    let add = |name, bytes: Vec<u8>| all.entry(name).or_default().extend(bytes);
+    let good = wait(py, &host, hear, add, stiffarm_cli::run)?;
+    Ok((good, all.into_iter().map(|(name, bytes)| (name, PyBytes::new(py, &bytes))).collect()))
 }

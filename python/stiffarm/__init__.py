@@ -16,6 +16,7 @@ from .branches import Branches
 from .commands import check, compensate, effects, generate, identify, import_urdf, measurements, papers, predict
 from .commands import eval as eval
 from .commands import map as map
+from .controllers import Corrected, compensate_program, controller
 from .diagnosis import Diagnosis, diagnose
 from .experiments import Log, Motion, poses, simulate, withhold
 from .prediction import LogPrediction, Prediction
@@ -27,6 +28,7 @@ from .table import Map, Table
 __all__ = [
     "Arm",
     "Branches",
+    "Corrected",
     "Diagnosis",
     "Effect",
     "Error",
@@ -48,6 +50,8 @@ __all__ = [
     "__version__",
     "check",
     "compensate",
+    "compensate_program",
+    "controller",
     "diagnose",
     "effects",
     "generate",

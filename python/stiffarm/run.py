@@ -21,15 +21,24 @@ def robot(arm: AnyArm, files: dict[str, bytes]) -> str:
         if not name.lower().endswith((".urdf", ".xml")):
             return name
         arm = Arm.load(name)
-    if not arm.built_in:
-        files[arm.given] = arm.toml.encode()
-    return arm.given
+    if arm.built_in:
+        return arm.given
+    # Two arms may have the same name.
+    word = "<nominal>" if arm.given in files else arm.given
+    files[word] = arm.toml.encode()
+    return word
 
 
-def run(words: list[str], files: dict[str, bytes], progress: bool = False) -> tuple[bool, dict[str, str]]:
+def run_bytes(words: list[str], files: dict[str, bytes], progress: bool = False) -> tuple[bool, dict[str, bytes]]:
     """Whether all was as it should, and what was written, by name; ``-`` is the screen."""
     with Progress(progress) as hear:
         return _native.run(words, files, hear)
+
+
+def run(words: list[str], files: dict[str, bytes], progress: bool = False) -> tuple[bool, dict[str, str]]:
+    """The same where all that is written is text."""
+    good, written = run_bytes(words, files, progress)
+    return good, {name: text.decode() for name, text in written.items()}
 
 
 def tabled(words: list[str], files: dict[str, bytes], progress: bool = False, *, out: str = "csv") -> Table:

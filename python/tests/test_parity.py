@@ -155,6 +155,60 @@ def test_compensate(cli, at_root):
     assert found["status"].count("reached") == found.rows - 1
 
 
+OFFSET = '\n[[effect]]\nid = "joint_offset"\nplace = "joint 2"\noffset = 5e-4\n'
+
+SCRIPT = b"""def pick(): # \xe4
+  set_tcp(p[0, 0, 0.12, 0, 0, 0])
+  movej(p[0.55, -0.3, 0.35, 0, 3.1416, 0], a=1.4)
+  movel(pose_trans(feature, p[0.1, 0, 0.2, 0, 3.1416, 0]), a=1.2)
+end
+"""
+
+
+def test_compensate_program(cli, tmp_path):
+    nominal = stiffarm.Arm.load("ur10")
+    (tmp_path / "real.toml").write_text(nominal.toml + OFFSET, encoding="utf-8")
+    # Two arms of one name, and neither is on disk.
+    real = stiffarm.Arm.from_toml(nominal.toml + OFFSET)
+    script, out, moves = (tmp_path / name for name in ("pick.script", "out.script", "moves.csv"))
+    script.write_bytes(SCRIPT)
+    home = "-0.9,-1.6,-1.9,-1.2,1.57,0.0"
+    words = ["compensate", tmp_path / "real.toml", "--program", script, "--nominal", "ur10", "--frame", "feature=0.5,-0.4,0.1,0,0,0"]
+    screen = cli(*words, "--home", home, "--out", out, "--moves", moves)
+    found = stiffarm.compensate_program(
+        real, script, stiffarm.Arm.from_toml(nominal.toml), frames={"feature": [0.5, -0.4, 0.1, 0, 0, 0]},
+        home=[float(q) for q in home.split(",")],
+    )
+    assert found.files == {"pick.script": out.read_bytes()} and b"\xe4" in found.files["pick.script"] != SCRIPT
+    assert found.moves.csv == moves.read_text(encoding="utf-8")
+    assert found.complete and str(found) == screen
+    with pytest.raises(stiffarm.Error, match="feature"):
+        stiffarm.compensate_program(real, script, "ur10", home=[0.0] * 6)
+    # Of several files each has its name.
+    points, path = tmp_path / "weld.dat", tmp_path / "weld.src"
+    points.write_text("DEFDAT weld\nDECL E6POS XP1={X 700,Y -200,Z 500,A 0,B 90,C 0}\nENDDAT\n", encoding="utf-8")
+    path.write_text("DEF weld()\n$BASE=$NULLFRAME\nLIN XP1\nEND\n", encoding="utf-8")
+    both = stiffarm.compensate_program(real, [path, points], "ur10", tools={"default": "robot"}, home=[-0.5, -1.6, 1.9, -0.2, 1.57, 0.1])
+    assert sorted(both.files) == ["weld.dat", "weld.src"] and both.complete
+    assert both.files["weld.src"] == path.read_bytes() != both.files["weld.dat"] != points.read_bytes()
+
+
+def test_controller(cli, tmp_path):
+    real = stiffarm.Arm.from_toml(stiffarm.Arm.load("ur10").toml + OFFSET)
+    (tmp_path / "real.toml").write_text(real.toml, encoding="utf-8")
+    for options in ({"format": "ur-calibration", "nominal": "ur10"}, {"format": "ur-kinematics", "hash": "calib_1"}):
+        words = [f"--{name}={value}" for name, value in options.items()]
+        assert stiffarm.controller(real, **options) == cli("controller", tmp_path / "real.toml", *words).encode()
+    # The bytes of a file are its own.
+    own, out = tmp_path / "machine.dat", tmp_path / "new.dat"
+    own.write_bytes(b"; \xe4\r\n$MAMES[2]=-90.0\r\n")
+    cli("controller", tmp_path / "real.toml", "--format=kuka-mastering", "--nominal=ur10", f"--into={own}", f"--out={out}")
+    assert stiffarm.controller(real, "kuka-mastering", nominal="ur10", into=own) == out.read_bytes()
+    assert b"\xe4" in out.read_bytes()
+    with pytest.raises(stiffarm.Error, match="--nominal"):
+        stiffarm.controller(real, "ur-calibration")
+
+
 @pytest.mark.parametrize("emit", ["rust", "latex", "dot", "urdf", "mjcf"])
 def test_generate(cli, emit):
     (text,) = stiffarm.generate("ur5", emit).values()

@@ -55,6 +55,8 @@ def main() -> None:
         arm.pose([0.0] * 5)
     except ValueError:
         pass
+    limits: bytes = stiffarm.controller(arm, "joint-limits")
+    assert limits.startswith(b"joint_limits:")
     springs: stiffarm.Record = stiffarm.eval(arm, [0.0] * 6).to_dict()
     assert springs["position"]
 

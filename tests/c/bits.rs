@@ -21,7 +21,7 @@ with_each_compiler! {
 const COUNT: usize = 250;
 
 /// A number that has bits.
-trait Bits: Scalar + Debug + PartialEq + 'static {
+pub trait Bits: Scalar + Into<f64> + Debug + PartialEq + 'static {
     type Word: LowerHex + Copy;
     const PRECISION: Precision;
     fn word(self) -> Self::Word;

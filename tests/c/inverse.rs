@@ -1,5 +1,5 @@
-//! The inverse kinematics in C: the bits of the Rust kernels, of tables with a closed form and of one near it. In CUDA and
-//! NumPy, whose sines are others: the same branches.
+//! The inverse kinematics in C: the bits of the Rust kernels in both precisions, of tables with a closed form, of one near
+//! it, and of those that are searched. In CUDA and NumPy, whose sines are others: the same branches.
 
 use std::process::Command;
 
@@ -9,12 +9,15 @@ use stiffarm_codegen::emit::{CudaOptions, Precision, Sines, cuda, python};
 use stiffarm_codegen::robot::{Family, Robot, Wanted};
 use stiffarm_draws::Draws;
 
+use crate::bits::Bits;
 use crate::compiler::{CUDA, Folder, compile, run, spoken, with_each_compiler};
-use crate::program::SIDES;
+use crate::program::{SIDES, types};
 
 with_each_compiler! {
     branches_are_the_rust_kernels_bits
     set_points_are_the_rust_kernels_bits
+    branches_of_singles_are_the_rust_kernels_bits
+    set_points_of_singles_are_the_rust_kernels_bits
 }
 
 robot! { mod kr240 from "robots/arms/kuka_kr240.toml"; outputs: pose, inverse_kinematics; }
@@ -73,11 +76,17 @@ const POSES: usize = 300;
 const ANGLE: f64 = 0.5;
 
 /// Reads joint values, a pose and a wrench as bits, prints all branches as bits.
-fn program(function: &str, (given, elbow): (&str, bool), [joints, branches]: [usize; 2]) -> String {
+fn program(
+    precision: Precision,
+    function: &str,
+    (given, elbow): (&str, bool),
+    [joints, branches]: [usize; 2],
+) -> String {
+    let [real, word, scan, print] = types(precision);
     let (pose, load, all) = (joints, joints + 12, joints + 18);
     let load = match function {
         "set_points" => format!(", &x[{load}]"),
-        _ if elbow => format!(", {ANGLE:?}"),
+        _ if elbow => format!(", ({real}){ANGLE:?}"),
         _ => String::new(),
     };
     let values = joints * branches;
@@ -87,28 +96,28 @@ fn program(function: &str, (given, elbow): (&str, bool), [joints, branches]: [us
 #include <string.h>
 #include \"arm.h\"
 
-static void put(const double *x, unsigned int size)
+static void put(const {real} *x, unsigned int size)
 {{
     unsigned int k;
 
     for (k = 0U; k < size; k++)
     {{
-        uint64_t bits;
+        {word} bits;
         (void)memcpy(&bits, &x[k], sizeof bits);
-        (void)printf(\"%\" PRIx64 \" \", bits);
+        (void)printf(\"%\" {print} \" \", bits);
     }}
 }}
 
 int main(void)
 {{
-    double x[{all}];
-    static const double sides[6] = {{{}}};
+    {real} x[{all}];
+    static const {real} sides[6] = {{{}}};
     arm_{function}_t out;
     unsigned int k = 0U;
-    uint64_t bits;
+    {word} bits;
 
     (void)sides;
-    while (scanf(\"%\" SCNx64, &bits) == 1)
+    while (scanf(\"%\" {scan}, &bits) == 1)
     {{
         (void)memcpy(&x[k], &bits, sizeof bits);
         k++;
@@ -125,7 +134,7 @@ int main(void)
     return 0;
 }}
 ",
-        sides().map(|side| format!("{side:?}")).join(", ")
+        sides::<f64>().map(|side| format!("({real}){side:?}")).join(", ")
     )
 }
 
@@ -200,7 +209,7 @@ int main(void)
     return (int)(sides[0] - side[0] + angle[0] - {ANGLE:?});
 }}
 ",
-        sides().map(|side| format!("{side:?}")).join(", ")
+        sides::<f64>().map(|side| format!("{side:?}")).join(", ")
     )
 }
 
@@ -225,17 +234,22 @@ parts = [out['q'].swapaxes(-1, -2), out['distance'], out['tilt']]
 for row in np.concatenate([part.reshape(len(x), -1) for part in parts], axis=-1):
     print(' '.join(format(struct.unpack('<Q', struct.pack('<d', y))[0], 'x') for y in row))
 ",
-        sides(),
+        sides::<f64>(),
         joints + 12,
     )
 }
 
-fn sides() -> [f64; 6] {
-    core::array::from_fn(|k| SIDES[k % SIDES.len()])
+fn sides<S: Bits>() -> [S; 6] {
+    core::array::from_fn(|k| S::lit(SIDES[k % SIDES.len()]))
 }
 
 /// Writes an arm's text and the program around one function of it, and what that says to an input.
-fn said(compiler: &str, (id, outputs): (&str, &[&str]), input: &str) -> String {
+fn said(
+    compiler: &str,
+    precision: Precision,
+    (id, outputs): (&str, &[&str]),
+    input: &str,
+) -> String {
     let text = std::fs::read_to_string(format!("{}/{id}", env!("CARGO_MANIFEST_DIR")));
     let (mut robot, _) = Robot::from_toml(&text.expect("the file"), "arm.toml").expect("valid");
     robot = robot.with_effects().expect("effects of kernels");
@@ -249,7 +263,8 @@ fn said(compiler: &str, (id, outputs): (&str, &[&str]), input: &str) -> String {
         _ => "set_points",
     };
     let given = if robot.beyond.takes_sides() { ", sides" } else { "" };
-    let folder = Folder::new(&format!("{function}-{compiler}-{}", id.replace('/', "-")));
+    let [real, ..] = types(precision);
+    let folder = Folder::new(&format!("{function}-{compiler}-{real}-{}", id.replace('/', "-")));
     let form = robot.inverse_kinematics.expect("it was asked for");
     let size = [robot.dof(), form.branches()];
     let given = (given, form.family == Family::ElbowAngle);
@@ -272,11 +287,8 @@ fn said(compiler: &str, (id, outputs): (&str, &[&str]), input: &str) -> String {
             return spoken(python, input);
         }
         _ => {
-            for precision in [Precision::F32, Precision::F64] {
-                folder.write_c(&robot, "arm", (precision, Sines::Polynomial));
-                compile(compiler, &folder, &["-O2", "-c", "arm.c"]);
-            }
-            folder.write("main.c", &program(function, given, size));
+            folder.write_c(&robot, "arm", (precision, Sines::Polynomial));
+            folder.write("main.c", &program(precision, function, given, size));
             compile(compiler, &folder, &["-O2", "arm.c", "main.c", "-o", "branches", "-lm"]);
         }
     }
@@ -284,10 +296,10 @@ fn said(compiler: &str, (id, outputs): (&str, &[&str]), input: &str) -> String {
 }
 
 /// Postures' own poses, singular ones, poses out of reach, and numbers that are none.
-fn check<const N: usize, const K: usize, A: Inverse<N, K> + has::Pose<N>>(
+fn check<S: Bits, const N: usize, const K: usize, A: Inverse<N, K, S> + has::Pose<N, S>>(
     compiler: &str,
     (arm, id, outputs): (&A, &str, &[&str]),
-    branches: impl Fn(&Pose<f64>, &[f64; N], &[f64; 6]) -> Solutions<f64, N, K>,
+    branches: impl Fn(&Pose<S>, &[S; N], &[S; 6]) -> Solutions<S, N, K>,
 ) {
     let mut draws = Draws::new(5);
     let (mut input, mut expected) = (String::new(), Vec::new());
@@ -296,42 +308,38 @@ fn check<const N: usize, const K: usize, A: Inverse<N, K> + has::Pose<N>>(
         if k % 5 == 0 {
             q[4 % N] = 0.0;
         }
-        let Pose { rotation, mut position } = arm.pose(&arm.posture(&q));
+        let Pose { rotation, mut position } = arm.pose(&arm.posture(&q.map(S::lit)));
         match k % 7 {
-            1 => position = position.map(|x| 9.0 * x),
-            2 if k < 10 => position[0] = f64::NAN,
+            1 => position = position.map(|x| S::lit(9.0) * x),
+            2 if k < 10 => position[0] = S::lit(f64::NAN),
             _ => {}
         }
-        let (pose, near) = (Pose { rotation, position }, draws.array(-3.1, 3.1));
-        let wrench = draws.load().map(|x| if k % 11 == 3 { 1e9 * x } else { x });
+        let near = draws.array(-3.1, 3.1).map(S::lit);
+        let pose = Pose { rotation, position };
+        let wrench = draws.load().map(|x| S::lit(if k % 11 == 3 { 1e9 * x } else { x }));
         let columns = pose.columns();
         let numbers = near.iter().chain(columns.as_flattened()).chain(&wrench);
-        let bits = numbers.map(|x| x.to_bits());
+        let bits = numbers.map(|x| x.word());
         input.extend(bits.map(|bits| format!("{bits:x} ")));
         input.push('\n');
         let found = branches(&pose, &near, &wrench);
         let all = found.q.as_flattened().iter().chain(&found.distance).chain(&found.tilt);
-        expected.push(all.copied().collect::<Vec<f64>>());
+        expected.push(all.copied().collect::<Vec<S>>());
     }
-    let said = said(compiler, (id, outputs), &input);
+    let said = said(compiler, S::PRECISION, (id, outputs), &input);
     assert_eq!(said.lines().count(), expected.len());
     let (mut all, mut others) = (0, 0);
     for (line, expected) in said.lines().zip(&expected) {
-        let found = line
-            .split_whitespace()
-            .map(|word| f64::from_bits(u64::from_str_radix(word, 16).expect("bits")));
-        let found: Vec<f64> = found.collect();
+        let found: Vec<S> = line.split_whitespace().map(S::read).collect();
         assert_eq!(found.len(), expected.len());
         if !["cuda", "python3"].contains(&compiler) {
             for (found, expected) in found.iter().zip(expected) {
-                let same = found.to_bits() == expected.to_bits();
-                assert!(
-                    same || found.is_nan() && expected.is_nan(),
-                    "{id}: {found:?} {expected:?}"
-                );
+                assert!(found.same(*expected), "{id}: {found:?} {expected:?}");
             }
             continue;
         }
+        let doubles = |all: &[S]| -> Vec<f64> { all.iter().map(|x| (*x).into()).collect() };
+        let (found, expected) = (doubles(&found), &doubles(expected));
         let same = |at: usize, other: usize, within: f64| {
             let (a, b) = (found[at], expected[other]);
             let by = (a - b).abs();
@@ -381,10 +389,26 @@ fn numpy_has_the_rust_kernels_branches() {
 }
 
 fn branches_are_the_rust_kernels_bits(compiler: &str) {
-    let calibrated = calibrated::Robot { sides: sides() };
+    branches::<f64>(compiler);
+}
+
+fn set_points_are_the_rust_kernels_bits(compiler: &str) {
+    set_points::<f64>(compiler);
+}
+
+fn branches_of_singles_are_the_rust_kernels_bits(compiler: &str) {
+    branches::<f32>(compiler);
+}
+
+fn set_points_of_singles_are_the_rust_kernels_bits(compiler: &str) {
+    set_points::<f32>(compiler);
+}
+
+fn branches<S: Bits>(compiler: &str) {
+    let calibrated = calibrated::Robot { sides: sides::<S>() };
     macro_rules! check {
         ($arm:expr, $id:literal) => {
-            check(compiler, (&$arm, $id, &OUTPUTS[..2]), |pose, near, _| {
+            check::<S, _, _, _>(compiler, (&$arm, $id, &OUTPUTS[..2]), |pose, near, _| {
                 $arm.closed_form(pose, near)
             })
         };
@@ -394,27 +418,27 @@ fn branches_are_the_rust_kernels_bits(compiler: &str) {
     check!(puma560::Robot, "robots/arms/puma560.toml");
     check!(ur10::Robot, "robots/arms/ur10.toml");
     check!(calibrated, "tests/data/calibrated_ur10.toml");
-    check(
+    check::<S, _, _, _>(
         compiler,
         (&calibrated, "tests/data/calibrated_ur10.toml", &OUTPUTS[..3]),
         |pose, near, _| calibrated.inverse_kinematics(pose, near),
     );
     check!(panda::Robot, "robots/arms/panda.toml");
     check!(iiwa14::Robot, "robots/arms/iiwa14.toml");
-    check(
+    check::<S, _, _, _>(
         compiler,
         (&elbow::Robot, "robots/arms/iiwa14.toml", &WITH_ELBOW[..2]),
-        |pose, near, _| elbow::Robot.closed_form_at(pose, near, ANGLE),
+        |pose, near, _| elbow::Robot.closed_form_at(pose, near, S::lit(ANGLE)),
     );
     check!(stanford::Robot, "robots/arms/stanford.toml");
     check!(plane::Robot, "robots/arms/bicchi_3r.toml");
     check!(general::Robot, "tests/data/general.toml");
-    check(
+    check::<S, _, _, _>(
         compiler,
         (&searched::Robot, "tests/data/offset_wrist.toml", &OUTPUTS[..3]),
         |pose, near, _| searched::Robot.inverse_kinematics(pose, near),
     );
-    check(
+    check::<S, _, _, _>(
         compiler,
         (
             &by_three::Robot,
@@ -425,11 +449,11 @@ fn branches_are_the_rust_kernels_bits(compiler: &str) {
     );
 }
 
-fn set_points_are_the_rust_kernels_bits(compiler: &str) {
-    let calibrated = loaded::calibrated::Robot { sides: sides() };
+fn set_points<S: Bits>(compiler: &str) {
+    let calibrated = loaded::calibrated::Robot { sides: sides::<S>() };
     macro_rules! check {
         ($arm:expr, $id:literal) => {
-            check(compiler, (&$arm, $id, &OUTPUTS), |pose, near, wrench| {
+            check::<S, _, _, _>(compiler, (&$arm, $id, &OUTPUTS), |pose, near, wrench| {
                 $arm.set_points(pose, near, wrench)
             })
         };
@@ -441,7 +465,9 @@ fn set_points_are_the_rust_kernels_bits(compiler: &str) {
     check!(calibrated, "tests/data/calibrated_kuka.toml");
     check!(loaded::searched::Robot, "tests/data/offset_wrist.toml");
     let elbow = loaded::elbow::Robot;
-    check(compiler, (&elbow, "robots/arms/iiwa14.toml", &WITH_ELBOW), |pose, near, wrench| {
-        elbow.set_points(pose, near, wrench)
-    });
+    check::<S, _, _, _>(
+        compiler,
+        (&elbow, "robots/arms/iiwa14.toml", &WITH_ELBOW),
+        |pose, near, wrench| elbow.set_points(pose, near, wrench),
+    );
 }

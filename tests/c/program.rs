@@ -9,6 +9,14 @@ use stiffarm_codegen::robot::Robot;
 pub const SIDES: [f64; 5] = [1.0, -1.0, 1.0, 0.0, -1.0];
 pub const WARMING: f64 = 8.5;
 
+/// A number in C, its bits, and how these are read and printed.
+pub fn types(precision: Precision) -> [&'static str; 4] {
+    match precision {
+        Precision::F32 => ["float", "uint32_t", "SCNx32", "PRIx32"],
+        Precision::F64 => ["double", "uint64_t", "SCNx64", "PRIx64"],
+    }
+}
+
 /// The program for the kernels of `robot`, called `name`: every output of the tool, then those of its places in their
 /// order, then those of the fused function.
 ///
@@ -19,10 +27,7 @@ pub fn program(name: &str, robot: &Robot, precision: Precision) -> String {
     let (sides, warming) = (robot.beyond.takes_sides(), robot.beyond.takes_warming());
     let given = [(sides, ", sides"), (warming, ", warming")];
     let given: String = given.into_iter().filter(|(is, _)| *is).map(|(_, text)| text).collect();
-    let (real, word, scan, print) = match precision {
-        Precision::F32 => ("float", "uint32_t", "SCNx32", "PRIx32"),
-        Precision::F64 => ("double", "uint64_t", "SCNx64", "PRIx64"),
-    };
+    let [real, word, scan, print] = types(precision);
     let mut calls = String::new();
     let tool = robot.generated().into_iter().map(|output| (output.name().to_owned(), output));
     let places = robot.places().into_iter().flat_map(|(place, outputs)| {

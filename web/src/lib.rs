@@ -61,6 +61,9 @@ pub fn run(words: Vec<String>, files: Files) -> String {
         Ok(Err(failure)) => (false, Some(failure.text())),
         Err(_) => (false, Some("the work was ended".to_owned())),
     };
-    let answer = Answer { good, failure, written: heard.written, remarks: heard.remarks };
+    let text =
+        |(name, bytes): (String, Vec<u8>)| (name, String::from_utf8_lossy(&bytes).into_owned());
+    let written = heard.written.into_iter().map(text).collect();
+    let answer = Answer { good, failure, written, remarks: heard.remarks };
     serde_json::to_string(&answer).unwrap_or_default()
 }

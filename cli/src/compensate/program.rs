@@ -227,8 +227,10 @@ impl ProgramArgs {
                     return Err(Failure::new(message));
                 }
                 Target::File(folder) if several => {
-                    let made = std::fs::create_dir_all(folder);
-                    made.map_err(|error| Failure::io("write", folder, &error))?;
+                    if !host.owns(folder) {
+                        let made = std::fs::create_dir_all(folder);
+                        made.map_err(|error| Failure::io("write", folder, &error))?;
+                    }
                     let name = Path::new(&file.name).file_name().unwrap_or_default();
                     Target::File(apart(&folder.join(name), Path::new(&file.name))?)
                 }

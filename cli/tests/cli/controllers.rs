@@ -1,13 +1,15 @@
 //! `stiffarm controller`: a controller that reads the file stands where the arm is.
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
+use stiffarm_kernels::Motion;
+use stiffarm_kernels::generic::Arm;
 
-use crate::support::{Folder, arm, read, stiffarm};
+use crate::support::{Folder, arm, arm_of, read, stiffarm};
 
 const Q: [f64; 6] = [0.3, -1.2, 1.4, 0.2, 0.7, -0.4];
 
-/// A UR10 of which zeros, lengths and twists are off, and its pose at `Q`.
-fn real() -> (String, Isometry3<f64>) {
+/// A UR10 of which zeros, lengths and twists are off, and the arm.
+fn real() -> (String, Arm) {
     let mut text = read("robots/arms/ur10.toml");
     let mut arm = arm("ur10");
     for (k, joint) in arm.joints.iter_mut().enumerate().take(5) {
@@ -25,7 +27,7 @@ fn real() -> (String, Isometry3<f64>) {
             k + 1, -off, if tilted { "beta" } else { "d" }, 2.0 * off, 3.0 * off
         ));
     }
-    (text, arm.pose(&Q))
+    (text, arm)
 }
 
 #[track_caller]
@@ -37,7 +39,8 @@ fn same(a: &Isometry3<f64>, b: &Isometry3<f64>) {
 #[test]
 fn the_calibration_of_a_ur_is_its_table() {
     let folder = Folder::new();
-    let (text, pose) = real();
+    let (text, real) = real();
+    let pose = real.pose(&Q);
     let file = folder.file("real.toml", text);
     let arguments = ["controller", &file, "--format", "ur-calibration", "--nominal", "ur10"];
     let written = stiffarm(&arguments).good();
@@ -60,7 +63,8 @@ fn the_calibration_of_a_ur_is_its_table() {
 #[test]
 fn the_kinematics_file_is_the_arm() {
     let folder = Folder::new();
-    let (text, pose) = real();
+    let (text, real) = real();
+    let pose = real.pose(&Q);
     let file = folder.file("real.toml", text);
     let arguments = ["controller", &file, "--format", "ur-kinematics", "--hash", "calib_1"];
     let written = stiffarm(&arguments).good();
@@ -74,4 +78,46 @@ fn the_kinematics_file_is_the_arm() {
         Isometry3::from_parts(Translation3::new(v[0], v[1], v[2]), place * turn)
     });
     same(&joints.fold(Isometry3::identity(), |chain, joint| chain * joint), &pose);
+}
+
+/// Place of an axis, turn about it or slide along it, and the tool at the end are the arm: of either convention.
+#[test]
+fn the_origins_of_xacro_are_the_arm() {
+    let folder = Folder::new();
+    let base = "\n[base]\ntranslation = [0.4, -0.3, 0.2]\nrotation = [0.1, -0.2, 0.3]\n";
+    let built_in = |id: &str, more: &str| {
+        let text = read(&format!("robots/arms/{id}.toml")) + more;
+        let arm = arm_of(&text);
+        (text, arm)
+    };
+    // Tilts of two parallel axes; a slide and a base; the other convention; a tool.
+    let arms =
+        [real(), built_in("stanford", base), built_in("kuka_kr240", ""), built_in("panda", "")];
+    for (text, arm) in arms {
+        let file = folder.file("arm.toml", &text);
+        let written = stiffarm(&["controller", &file, "--format", "xacro", "--quiet"]).good();
+        let lists =
+            written.lines().filter_map(|line| line.split_once("value=\"")?.1.strip_suffix("\"/>"));
+        let triple = |list: &str| -> [f64; 3] {
+            let each: Vec<f64> = list.split(' ').map(|x| x.parse().expect("a number")).collect();
+            each.try_into().expect("three numbers")
+        };
+        let values: Vec<[f64; 3]> = lists.map(triple).collect();
+        assert_eq!(values.len(), 2 * (arm.dof() + 1), "{written}");
+        let q: Vec<f64> = (0..arm.dof()).map(|k| Q[k % Q.len()]).collect();
+        let mut chain = Isometry3::identity();
+        for (k, place) in values.chunks(2).enumerate() {
+            let [[x, y, z], [roll, pitch, yaw]] = [place[0], place[1]];
+            let turn = UnitQuaternion::from_euler_angles(roll, pitch, yaw);
+            chain *= Isometry3::from_parts(Translation3::new(x, y, z), turn);
+            match arm.joints.get(k).map(|joint| joint.motion) {
+                Some(Motion::Revolute) => {
+                    chain *= UnitQuaternion::from_axis_angle(&Vector3::z_axis(), q[k]);
+                }
+                Some(Motion::Prismatic) => chain *= Translation3::new(0.0, 0.0, q[k]),
+                None => {}
+            }
+        }
+        same(&chain, &arm.pose(&q));
+    }
 }

@@ -4,12 +4,13 @@ mod kuka;
 mod ros;
 mod ur;
 
+use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use stiffarm_kernels::Motion;
-use stiffarm_kernels::generic::{Arm, Joint};
+use stiffarm_kernels::generic::{Arm, Convention, Joint};
 
 pub use kuka::mastering;
-pub use ros::joint_limits;
-pub use ur::{calibration, kinematics};
+pub use ros::{joint_limits, origins};
+pub use ur::{calibration, kinematics, model};
 
 /// What is wrong with a controller's file, or with what should go into it.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -85,4 +86,35 @@ pub fn lost(nominal: &Arm, real: &Arm, holds: Holds) -> Vec<String> {
         lost.push("the base in the measuring frame".to_owned());
     }
     lost
+}
+
+/// The place of each axis (z) in the body before it at q = 0, and of the last frame in the last body.
+fn axes(arm: &Arm) -> (Vec<Isometry3<f64>>, Isometry3<f64>) {
+    let mut end = Isometry3::identity();
+    let places = arm.joints.iter().map(|joint| {
+        let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), joint.theta);
+        let axis = turn * Translation3::new(0.0, 0.0, joint.d);
+        let link = Translation3::new(joint.a, 0.0, 0.0);
+        match arm.convention {
+            Convention::Standard => std::mem::replace(&mut end, link * tilt(joint)) * axis,
+            Convention::Modified => tilt(joint) * link * axis,
+        }
+    });
+    let places = places.collect();
+    (places, end)
+}
+
+/// By what a row turns the next axis from its own: `Rx(alpha) Ry(beta)`.
+fn tilt(joint: &Joint) -> UnitQuaternion<f64> {
+    let turn = |axis, angle| UnitQuaternion::from_axis_angle(&axis, angle);
+    turn(Vector3::x_axis(), joint.alpha) * turn(Vector3::y_axis(), joint.beta)
+}
+
+/// `x y z`, m, and `roll pitch yaw`, rad, as ROS tells a place; what is rounding of products of rotations is zero.
+fn told(place: &Isometry3<f64>) -> [f64; 6] {
+    const ROUNDING: f64 = 1e-15;
+    let (roll, pitch, yaw) = place.rotation.euler_angles();
+    let origin = place.translation.vector;
+    let values = [origin.x, origin.y, origin.z, roll, pitch, yaw];
+    values.map(|x| if x.abs() < ROUNDING { 0.0 } else { x })
 }

@@ -1,9 +1,9 @@
-//! `joint_limits.yaml`, as `ros2_control` and MoveIt read it.
+//! ROS 2: `joint_limits.yaml`, as `ros2_control` and MoveIt read it, and properties of xacro with the origins of joints.
 
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
-use super::ControllerError;
+use super::{ControllerError, axes, told};
 
 /// The limits of the joints by their names, rad and m. Velocities, accelerations and efforts are in no robot file.
 ///
@@ -28,4 +28,30 @@ pub fn joint_limits(arm: &Arm, names: &[String]) -> Result<String, ControllerErr
         }
     }
     Ok(text)
+}
+
+/// A file for `xacro:include`: `NAME_xyz` and `NAME_rpy` of each joint, whose axis is z, and of the tool in the last link.
+/// A remark stands above them.
+pub fn origins(arm: &Arm, names: &[String], remark: Option<&str>) -> String {
+    let mut text = "<?xml version=\"1.0\"?>\n".to_owned();
+    if let Some(remark) = remark {
+        // Two hyphens would end the comment.
+        text.push_str(&format!("<!-- {} -->\n", remark.replace("--", "- -")));
+    }
+    text.push_str("<robot xmlns:xacro=\"http://www.ros.org/wiki/xacro\">\n");
+    let (mut places, end) = axes(arm);
+    if let Some(first) = places.first_mut() {
+        *first = arm.base * *first;
+    }
+    places.push(end * arm.tool);
+    let tool = "tool".to_owned();
+    for (place, name) in places.iter().zip(names.iter().chain([&tool])) {
+        let [x, y, z, roll, pitch, yaw] = told(place);
+        for (what, [a, b, c]) in [("xyz", [x, y, z]), ("rpy", [roll, pitch, yaw])] {
+            text.push_str(&format!(
+                "  <xacro:property name=\"{name}_{what}\" value=\"{a:?} {b:?} {c:?}\"/>\n"
+            ));
+        }
+    }
+    text + "</robot>\n"
 }

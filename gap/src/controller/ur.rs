@@ -2,27 +2,82 @@
 //!
 //! `calibration.conf` holds what the arm's table has more than that of its model: `delta_theta`, `delta_a`, `delta_d`,
 //! `delta_alpha` in `[mounting]`, rad and m, of rows of the standard convention. Beside them stand numbers of the joints'
-//! electronics (`joint_checksum`, `joint_raw_offset`, …), which only the robot's own file has.
+//! electronics (`joint_checksum`, `joint_raw_offset`, …), which only the robot's own file has. The model's table stands in
+//! `[DH]` of `urcontrol.conf`: `a`, `d`, `alpha`, m and rad.
 //!
 //! The kinematics file holds the place of each axis before the last one turns: `x y z`, m, and `roll pitch yaw`, rad.
 
 use std::ops::Range;
 
-use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Vector3};
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::{Arm, Convention, Joint};
 
-use super::ControllerError;
+use super::{ControllerError, axes, tilt, told};
 use crate::program::{Change, edited};
+
+/// The table of a model, as `urcontrol.conf` of its controller has it.
+///
+/// # Errors
+/// [`ControllerError`]: a list that is missing, or that is not six numbers.
+pub fn model(file: &[u8]) -> Result<Arm, ControllerError> {
+    let start = section(file, b"[DH]").ok_or_else(|| {
+        ControllerError::Missing("[DH]".to_owned(), "the urcontrol.conf of this robot")
+    })?;
+    let mut joints = vec![Joint::default(); LINKS.len()];
+    let entries: [(&str, fn(&mut Joint) -> &mut f64); 3] = [
+        ("a", |joint| &mut joint.a),
+        ("d", |joint| &mut joint.d),
+        ("alpha", |joint| &mut joint.alpha),
+    ];
+    for (name, entry) in entries {
+        let span = value(&file[start.clone()], name).ok_or_else(|| {
+            let expected = "the table in [DH] of this robot's urcontrol.conf";
+            ControllerError::Missing(format!("{name} = [...]"), expected)
+        })?;
+        let at = start.start + span.start;
+        let text = String::from_utf8_lossy(&file[at..start.start + span.end]);
+        let cells = text.trim_matches(['[', ']']).split(',').map(|cell| cell.trim().parse::<f64>());
+        let numbers: Vec<f64> = cells.filter_map(Result::ok).filter(|x| x.is_finite()).collect();
+        if numbers.len() != LINKS.len() || text.split(',').count() != LINKS.len() {
+            return Err(ControllerError::Entry {
+                line: 1 + file[..at].iter().filter(|byte| **byte == b'\n').count(),
+                found: text.into_owned(),
+                expected: "[six numbers of m or rad]",
+            });
+        }
+        joints.iter_mut().zip(numbers).for_each(|(joint, number)| *entry(joint) = number);
+    }
+    Ok(Arm {
+        name: "the model of urcontrol.conf".to_owned(),
+        convention: Convention::Standard,
+        joints,
+        base: Isometry3::identity(),
+        tool: Isometry3::identity(),
+        tool_rotation_vector: Vector3::zeros(),
+        gravity: Vector3::zeros(),
+    })
+}
+
+/// The lines of a section, behind its head.
+fn section(file: &[u8], head: &[u8]) -> Option<Range<usize>> {
+    let (mut start, mut at) = (None, 0);
+    for line in file.split_inclusive(|byte| *byte == b'\n') {
+        match start {
+            None if line.trim_ascii() == head => start = Some(at + line.len()),
+            Some(start) if line.starts_with(b"[") => return Some(start..at),
+            _ => {}
+        }
+        at += line.len();
+    }
+    start.map(|start| start..at)
+}
 
 /// Links in the kinematics file, base to tip.
 const LINKS: [&str; 6] = ["shoulder", "upper_arm", "forearm", "wrist_1", "wrist_2", "wrist_3"];
 
 /// An entry of a row.
 type Entry = fn(&Joint) -> f64;
-
-/// Of products of rotations, m and rad.
-const ROUNDING: f64 = 1e-15;
 
 /// What differs of a row, by its name in `calibration.conf`.
 const DELTAS: [(&str, Entry); 4] = [
@@ -94,12 +149,6 @@ fn without_beta(arm: &Arm) -> Arm {
     arm
 }
 
-/// By what a row turns the next axis from its own: `Rx(alpha) Ry(beta)`.
-fn tilt(joint: &Joint) -> UnitQuaternion<f64> {
-    let turn = |axis, angle| UnitQuaternion::from_axis_angle(&axis, angle);
-    turn(Vector3::x_axis(), joint.alpha) * turn(Vector3::y_axis(), joint.beta)
-}
-
 /// The list that stands behind a name at the begin of a line.
 fn value(text: &[u8], name: &str) -> Option<Range<usize>> {
     let mut start = 0;
@@ -124,20 +173,11 @@ fn value(text: &[u8], name: &str) -> Option<Range<usize>> {
 pub fn kinematics(real: &Arm, hash: &str) -> Result<String, ControllerError> {
     fits(real)?;
     let mut text = "kinematics:\n".to_owned();
-    let mut end = Isometry3::identity();
-    for (joint, link) in real.joints.iter().zip(LINKS) {
-        let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), joint.theta);
-        let axis = turn * Translation3::new(0.0, 0.0, joint.d);
-        let place: Isometry3<f64> = end * axis;
-        let (roll, pitch, yaw) = place.rotation.euler_angles();
-        let origin = place.translation.vector;
-        let values = [origin.x, origin.y, origin.z, roll, pitch, yaw];
-        let values = values.map(|x| if x.abs() < ROUNDING { 0.0 } else { x });
+    for (place, link) in axes(real).0.iter().zip(LINKS) {
         text.push_str(&format!("  {link}:\n"));
-        for (name, value) in ["x", "y", "z", "roll", "pitch", "yaw"].iter().zip(values) {
+        for (name, value) in ["x", "y", "z", "roll", "pitch", "yaw"].iter().zip(told(place)) {
             text.push_str(&format!("    {name}: {value:?}\n"));
         }
-        end = Translation3::new(joint.a, 0.0, 0.0) * tilt(joint);
     }
     text.push_str(&format!("  hash: {hash}\n"));
     Ok(text)
@@ -154,5 +194,46 @@ fn fits(arm: &Arm) -> Result<(), ControllerError> {
     match arm.joints.iter().position(|joint| joint.motion != Motion::Revolute) {
         Some(k) => Err(ControllerError::Rows(format!("a joint {} that slides", k + 1))),
         None => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const MODEL: &str = "[Hardware]\na = [9]\n\n[DH]\na = [0.0, -0.425, -0.3922, 0.0, 0.0, 0.0]\n\
+        d = [0.1625, 0.0, 0.0, 0.1333, 0.0997, 0.0996] # m\nalpha = [1.570796327, 0, 0, 1.570796327, -1.570796327, 0]\n\
+        q_home_offset = [0, 0, 0, 0, 0, 0]\n\n[Link]\nd = [7]\n";
+
+    #[test]
+    fn the_model_is_that_of_its_section() {
+        let arm = model(MODEL.as_bytes()).unwrap();
+        let of = |entry: Entry| arm.joints.iter().map(entry).collect::<Vec<f64>>();
+        assert_eq!(of(|joint| joint.a), [0.0, -0.425, -0.3922, 0.0, 0.0, 0.0]);
+        assert_eq!(of(|joint| joint.d), [0.1625, 0.0, 0.0, 0.1333, 0.0997, 0.0996]);
+        assert_eq!(of(|joint| joint.alpha)[3..], [1.570796327, -1.570796327, 0.0]);
+        // Its deltas from itself are none.
+        let none = calibration(None, &arm, &arm).unwrap();
+        assert_eq!(none.iter().filter(|byte| (b'1'..=b'9').contains(byte)).count(), 0);
+    }
+
+    #[test]
+    fn a_wrong_model_is_told() {
+        let refused = |from: &str, to: &str| {
+            model(MODEL.replace(from, to).as_bytes()).unwrap_err().to_string()
+        };
+        assert_eq!(
+            refused("[DH]", "[HD]"),
+            "found no `[DH]`, expected the urcontrol.conf of this robot"
+        );
+        assert_eq!(
+            refused("alpha =", "beta ="),
+            "found no `alpha = [...]`, expected the table in [DH] of this robot's urcontrol.conf"
+        );
+        for wrong in ["0.1333, x, 0.0996]", "0.1333, 0.0997]", "0.1333, nan, 0.0996]"] {
+            let told = refused("0.1333, 0.0997, 0.0996]", wrong);
+            assert!(told.starts_with("line 6: found `[0.1625, 0.0, 0.0, 0.1333"), "{told}");
+            assert!(told.ends_with("expected [six numbers of m or rad]"), "{told}");
+        }
     }
 }

@@ -53,7 +53,12 @@ pub enum Configuration {
     /// Nothing.
     Unsaid,
     /// KRL's turn: bit k is set where axis k + 1 is negative.
-    Signs(Cell),
+    Signs {
+        /// The turn.
+        turn: Cell,
+        /// Whether it is written as `'B110010'`.
+        binary: bool,
+    },
     /// RAPID's `cf1`, `cf4`, `cf6`: the quarter turn in which axes 1, 4 and 6 are, the first from 0 to 90°.
     Quarters([Cell; 3]),
     /// FANUC's turn numbers of axes 1, 4 and 6: whole turns to the nearest of which the axis is.

@@ -67,7 +67,10 @@ fn krl_has_points_in_both_files() {
     ];
     assert_eq!(told(&program), expected);
     let turn = &program.points[2].configuration;
-    assert!(matches!(turn, Configuration::Signs(cell) if cell.value == 10.0), "{turn:?}");
+    assert!(
+        matches!(turn, Configuration::Signs { turn, binary: false } if turn.value == 10.0),
+        "{turn:?}"
+    );
     let expected = [
         "PTP: it does not give each of A1 … A6 as a number",
         "LIN_REL: its motion is relative",
@@ -79,6 +82,18 @@ fn krl_has_points_in_both_files() {
     for start in expected {
         assert!(left.iter().any(|left| left.starts_with(start)), "{start}: {left:?}");
     }
+}
+
+/// Post processors write it in binary.
+#[test]
+fn krl_has_turns_in_binary() {
+    let src = "PTP {X 1,Y 2,Z 3,A 4,B 5,C 6,S'B010',T'B110010'}\n";
+    let program = all(&[("cell.src", src)]);
+    let turn = &program.points[0].configuration;
+    let Configuration::Signs { turn, binary: true } = turn else { panic!("{turn:?}") };
+    assert_eq!((turn.value, &src[turn.span.clone()]), (50.0, "'B110010'"));
+    let wrong = all(&[("cell.src", &src.replace("110010", "112"))]);
+    assert_eq!(left(&wrong), ["PTP: its T is no whole number below 64"]);
 }
 
 #[test]

@@ -33,8 +33,8 @@ impl Configuration {
         };
         match self {
             Configuration::Unsaid => true,
-            Configuration::Signs(said) => {
-                let bit = |k: usize| (said.value as i64 >> k & 1) as f64;
+            Configuration::Signs { turn, .. } => {
+                let bit = |k: usize| (turn.value as i64 >> k & 1) as f64;
                 q.iter().take(6).enumerate().all(|(k, q)| either(*q, &sign, bit(k)))
             }
             Configuration::Quarters(said) => {
@@ -67,10 +67,12 @@ pub(super) fn configured(
     };
     Ok(match said {
         Configuration::Unsaid => Vec::new(),
-        Configuration::Signs(cell) => {
+        Configuration::Signs { turn: cell, binary } => {
             let differing = (0..to.len().min(6)).filter(|k| !stays(*k, &sign));
             let turns = differing.fold(cell.value as i64, |turns, k| turns ^ (1 << k));
-            cell.whole(turns).into_iter().collect()
+            let text = |text| if *binary { format!("'B{turns:06b}'") } else { text };
+            let change = cell.whole(turns);
+            change.map(|c| Change { text: text(c.text), ..c }).into_iter().collect()
         }
         Configuration::Quarters(cells) => each(cells, &quarter),
         Configuration::Turns(cells) => each(cells, &turn),
@@ -88,7 +90,8 @@ mod tests {
     #[test]
     fn configurations_are_those_of_the_readings() {
         let from = [0.1, -0.2, 0.3, 1e-3, 0.5, -1e-7];
-        let signs = Configuration::Signs(cell(2.0));
+        let told = |binary| Configuration::Signs { turn: cell(2.0), binary };
+        let signs = told(false);
         assert!(signs.fits(&from) && !signs.fits(&[0.1, 0.2, 0.3, 0.0, 0.5, 0.0]));
         let texts = |said: &Configuration, to: &[f64]| -> Vec<String> {
             let changes = configured(said, &from, to).expect("no flip");
@@ -97,6 +100,7 @@ mod tests {
         // Axis 4 goes through zero, axis 6 stays there.
         let to = [0.1, -0.2, 0.3, -1e-4, 0.5, 1e-7];
         assert_eq!(texts(&signs, &to), ["10"]);
+        assert_eq!(texts(&told(true), &to), ["'B001010'"]);
         assert!(texts(&signs, &from).is_empty());
         let quarters = Configuration::Quarters([0.0, 0.0, -1.0].map(cell));
         assert!(quarters.fits(&from));

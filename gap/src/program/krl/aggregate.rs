@@ -12,9 +12,13 @@ use crate::io::Convention;
 const POSE: [&str; 6] = ["x", "y", "z", "a", "b", "c"];
 const AXES: [&str; 6] = ["a1", "a2", "a3", "a4", "a5", "a6"];
 
+const WRONG_TURN: &str = "its T is no whole number below 64";
+
 /// A component's value.
 pub(super) enum Value {
     Number(Cell),
+    /// `'B110010'`.
+    Binary(Cell),
     /// An enumeration's word, or anything else, as it stands.
     Other(String),
 }
@@ -46,9 +50,16 @@ impl Aggregate {
             if value.is_at_end() {
                 return Err(fault(file, at, &format!("a value of {}", name.to_uppercase()), help));
             }
-            let whole = value.rest().to_lowercase();
+            let (whole, start) = (value.rest().to_lowercase(), value.span().start);
             let number = value.number(unit).filter(|_| value.is_at_end());
-            parts.insert(name, number.map_or(Value::Other(whole), Value::Number));
+            let value = match (number, binary(&whole)) {
+                (Some(number), _) => Value::Number(number),
+                (None, Some(bits)) => {
+                    Value::Binary(Cell { value: bits, unit: 1.0, span: start..start + whole.len() })
+                }
+                (None, None) => Value::Other(whole),
+            };
+            parts.insert(name, value);
             at.mark(b',');
         }
         let end = at.span().end;
@@ -69,13 +80,16 @@ impl Aggregate {
             });
         };
         let mut point = Point::new(name, file, Values::Pose(cells));
-        match self.parts.get("t") {
-            None => {}
-            Some(Value::Number(turn)) if (0.0..64.0).contains(&turn.value) => {
-                point.configuration = Configuration::Signs(turn.clone());
-            }
-            Some(_) => return Err("its T is no whole number below 64"),
+        let (turn, binary) = match self.parts.get("t") {
+            None => return Ok(point),
+            Some(Value::Number(turn)) => (turn, false),
+            Some(Value::Binary(turn)) => (turn, true),
+            Some(Value::Other(_)) => return Err(WRONG_TURN),
+        };
+        if !(0.0..64.0).contains(&turn.value) {
+            return Err(WRONG_TURN);
         }
+        point.configuration = Configuration::Signs { turn: turn.clone(), binary };
         Ok(point)
     }
 
@@ -92,4 +106,11 @@ impl Aggregate {
         };
         names.iter().map(number).collect()
     }
+}
+
+/// The number of `'b110010'`.
+fn binary(text: &str) -> Option<f64> {
+    let digits = text.strip_prefix("'b")?.strip_suffix('\'')?;
+    let is_binary = digits.bytes().all(|byte| matches!(byte, b'0' | b'1'));
+    is_binary.then(|| u32::from_str_radix(digits, 2).ok().map(f64::from)).flatten()
 }
