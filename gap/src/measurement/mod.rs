@@ -22,7 +22,7 @@ mod seen;
 mod stack;
 mod told;
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
@@ -313,6 +313,17 @@ impl Measurements {
     /// The rows of each session, in the order of measuring; at least one where there are rows.
     pub fn sessions(&self) -> impl Iterator<Item = &[Row]> {
         self.rows.chunk_by(|a, b| a.session == b.session)
+    }
+
+    /// The rows of each picture: those of a camera and board at one posture under one load.
+    pub(crate) fn pictures(&self) -> Vec<Vec<usize>> {
+        let mut pictures: BTreeMap<_, Vec<usize>> = BTreeMap::new();
+        for (number, row) in self.rows.iter().enumerate() {
+            let load = row.wrench.map(|force| (force + 0.0).to_bits()).data.0;
+            let picture = (&row.session, row.group, load, &row.camera);
+            pictures.entry(picture).or_default().push(number);
+        }
+        pictures.into_values().collect()
     }
 
     /// Whether every row has a time.

@@ -38,6 +38,8 @@ pub struct Lens {
     pub focus: f64,
     /// The matrix in these parts, then the distortion.
     constants: [f64; CONSTANTS],
+    /// Whether nobody told the matrix, so that nothing holds it but what is seen.
+    is_guess: bool,
 }
 
 /// What is seen, by place and by constants.
@@ -54,7 +56,12 @@ impl Lens {
         let mut constants = [0.0; CONSTANTS];
         let scaled = matrix.iter().map(|x| x / focus).chain(distortion.iter().copied());
         constants.iter_mut().zip(scaled).for_each(|(to, from)| *to = from);
-        Lens { focus, constants }
+        Lens { focus, constants, is_guess: false }
+    }
+
+    /// The same where the matrix is a first guess.
+    pub(super) fn guessed(matrix: [f64; OF_MATRIX], distortion: &[f64]) -> Lens {
+        Lens { is_guess: true, ..Lens::new(matrix, distortion) }
     }
 
     /// A constant as it is told: of the matrix in pixels.
@@ -63,10 +70,14 @@ impl Lens {
     }
 
     /// How far a constant is from what it is near, over a standard deviation that is rough on purpose: a data sheet's
-    /// focal length is right to some hundredths, and a distortion is a few tenths at the most.
-    pub(crate) fn strayed(&self, told: &Lens, number: usize) -> (f64, f64) {
-        let near = if number < OF_MATRIX { NEAR_MATRIX } else { NEAR_DISTORTION };
-        ((told.constants[number] - self.constants[number]) / near, 1.0 / near)
+    /// focal length is right to some hundredths, and a distortion is a few tenths at the most. A guess holds nothing.
+    pub(crate) fn strayed(&self, told: &Lens, number: usize) -> Option<(f64, f64)> {
+        let near = match number < OF_MATRIX {
+            true if told.is_guess => return None,
+            true => NEAR_MATRIX,
+            false => NEAR_DISTORTION,
+        };
+        Some(((told.constants[number] - self.constants[number]) / near, 1.0 / near))
     }
 
     /// Of a constant's own unit in that in which it is told.

@@ -15,6 +15,7 @@ mod distance;
 mod lens;
 mod level;
 mod pair;
+mod pictures;
 mod plane;
 mod resection;
 
@@ -170,7 +171,7 @@ impl View {
         let (View::Camera { lens, .. }, View::Camera { lens: told, .. }) = (self, told) else {
             return None;
         };
-        Some(lens.strayed(told, constant))
+        lens.strayed(told, constant)
     }
 
     /// In what its readings are told, and what one of it is in m or rad.

@@ -1,8 +1,6 @@
 //! First guess of unknown frames, good enough for the exact fit to converge from: a tracker may
 //! stand anywhere.
 
-use std::collections::BTreeMap;
-
 use nalgebra::{
     DMatrix, DVector, Isometry3, Matrix3, Rotation3, UnitQuaternion, Vector2, Vector3, Vector6,
 };
@@ -92,16 +90,15 @@ fn frame_of(vector: &Vector6<f64>) -> Isometry3<f64> {
     Isometry3::from_parts(position.into(), rotation)
 }
 
-/// The tool's pose by what a camera shows of a board at each posture, at its first row: the board in the camera's axes,
-/// or the camera in the board's.
+/// The tool's pose by each picture of a board, at its first row: the board in the camera's axes, or the camera in the
+/// board's.
 fn boards(problem: &Problem<'_>) -> Vec<Option<Isometry3<f64>>> {
-    let mut postures: BTreeMap<(usize, usize), Vec<usize>> = BTreeMap::new();
-    for (number, row) in problem.data.rows.iter().enumerate().filter(|(k, _)| problem.fits[*k]) {
-        postures.entry((problem.session_of[number], row.group)).or_default().push(number);
-    }
     let mut poses = vec![None; problem.data.rows.len()];
-    for rows in postures.values().filter(|_| problem.data.by_board) {
-        let shown = rows.iter().filter_map(|row| {
+    if !problem.data.by_board {
+        return poses;
+    }
+    for rows in problem.data.pictures() {
+        let shown = rows.iter().filter(|row| problem.fits[**row]).filter_map(|row| {
             let row = &problem.data.rows[*row];
             let (target, direction) = direction(row)?;
             Some((target.or_else(|| row.offset.map(Vector3::from))?, direction, target.is_some()))

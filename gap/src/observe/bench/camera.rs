@@ -7,6 +7,7 @@ use std::collections::BTreeMap;
 use super::{Bench, Length};
 use crate::io::{Fault, Mistake};
 use crate::measurement::{Measurements, Row};
+use crate::observe::pictures::{self, Picture};
 use crate::observe::{Aim, Lens, Seen, View, lens};
 
 /// Numbers that a distortion may have: tangential and two or three radial ones, and three of a denominator.
@@ -74,14 +75,19 @@ impl Camera {
         Ok(())
     }
 
-    fn lens(&self) -> Option<Lens> {
-        let [[fx, _, cx], [_, fy, cy], _] = self.matrix?;
-        Some(Lens::new([fx, fy, cx, cy], &self.distortion))
+    /// In pixels, as long as nobody knows the matrix.
+    fn lens(&self) -> Lens {
+        let Some([[fx, _, cx], [_, fy, cy], _]) = self.matrix else {
+            return Lens::new([1.0, 1.0, 0.0, 0.0], &self.distortion);
+        };
+        Lens::new([fx, fy, cx, cy], &self.distortion)
     }
 
-    /// Its constants that are fitted; a distortion that is not told is one of five numbers.
+    /// Its constants that are fitted: the matrix if it is not told, too; a distortion that is not told is one of five
+    /// numbers.
     fn free(&self) -> &'static [usize] {
-        let has = |part| self.fit.contains(&part);
+        let is_told = |part| part != Part::Matrix || self.matrix.is_some();
+        let has = |part| self.fit.contains(&part) || !is_told(part);
         let distorted =
             lens::OF_MATRIX + if self.distortion.is_empty() { 5 } else { self.distortion.len() };
         match (has(Part::Matrix), has(Part::Distortion)) {
@@ -90,6 +96,36 @@ impl Camera {
             (false, true) => Aim::some(lens::OF_MATRIX, distorted),
             (true, true) => Aim::some(0, distorted),
         }
+    }
+}
+
+impl Camera {
+    /// Puts a matrix that nobody knows into the camera's rows, which are in pixels, by what it shows at each posture
+    /// under each load.
+    fn by_pictures(&self, data: &mut Measurements) -> Result<(), Fault> {
+        let own = |row: &Row| {
+            let aim = row.aim.as_deref().filter(|aim| aim.name == self.name)?;
+            let View::Camera { target, .. } = aim.view else { return None };
+            Some(target.or_else(|| row.offset.map(Vector3::from)))
+        };
+        if !data.rows.iter().any(|row| own(row).is_some()) {
+            return Ok(());
+        }
+        let of_picture = |rows: Vec<usize>| -> Picture {
+            let rows = rows.into_iter().map(|row| &data.rows[row]);
+            rows.filter_map(|row| Some((own(row)??, row.measured.fixed_rows::<2>(3).into_owned())))
+                .collect()
+        };
+        let pictures: Vec<_> = data.pictures().into_iter().map(of_picture).collect();
+        let matrix = pictures::matrix(&self.name, self.free().len(), &pictures)?;
+        let guess = Lens::guessed(matrix, &self.distortion);
+        for row in data.rows.iter_mut().filter(|row| own(row).is_some()) {
+            if let Some(View::Camera { lens, .. }) = row.aim.as_mut().map(|aim| &mut aim.view) {
+                *lens = guess;
+            }
+            in_parts_of(guess.focus, row);
+        }
+        Ok(())
     }
 }
 
@@ -123,6 +159,8 @@ impl Bench {
                 self.carried(row);
             }
         }
+        let unknown = self.camera.iter().filter(|camera| camera.matrix.is_none());
+        unknown.map(|camera| camera.by_pictures(data)).collect::<Result<(), _>>()?;
         Ok(())
     }
 
@@ -152,14 +190,13 @@ impl Bench {
     fn pixels(&self, row: &mut Row) -> Result<bool, Fault> {
         let at = |found: String, expected: &str, help: &str| Err(Fault::new(found, expected, help));
         let told = row.camera.as_ref().map_or("", |names| &names[0]);
-        let name = self.camera(row).map_or(told, |camera| &camera.name);
-        let Some((camera, lens)) =
-            self.camera(row).and_then(|camera| Some((camera, camera.lens()?)))
-        else {
-            let found = format!("`u` and `v` of camera `{name}`, whose matrix nobody knows");
-            let help = "write a [[camera]] with its name and matrix; `fit = [\"matrix\"]` where it is rough";
-            return at(found, "its matrix in the file of --bench", help);
+        let Some(camera) = self.camera(row) else {
+            let found = format!("`u` and `v` of camera `{told}`, which nobody knows");
+            let help = "write a [[camera]] with its name, and its matrix if that is known; `fit = [\"matrix\"]` \
+                        where it is rough";
+            return at(found, "it in the file of --bench", help);
         };
+        let lens = camera.lens();
         let Some(marker) = row.marker.clone() else {
             return at(
                 "`u` and `v` without a marker".to_owned(),
@@ -197,10 +234,6 @@ impl Bench {
                 return at(found, "one on the tool and one on the base", "mend `on`");
             }
         };
-        for k in 3..5 {
-            row.measured[k] /= lens.focus;
-            row.sigma.iter_mut().for_each(|sigma| sigma[k] /= lens.focus);
-        }
         let view = View::Camera { lens, target };
         row.aim = Some(Box::new(Aim {
             seen: Seen::Camera,
@@ -208,7 +241,16 @@ impl Bench {
             view,
             free: camera.free(),
         }));
+        in_parts_of(lens.focus, row);
         Ok(is_board)
+    }
+}
+
+/// Pixels in parts of the focal length.
+fn in_parts_of(focus: f64, row: &mut Row) {
+    for k in 3..5 {
+        row.measured[k] /= focus;
+        row.sigma.iter_mut().for_each(|sigma| sigma[k] /= focus);
     }
 }
 
@@ -270,7 +312,13 @@ mod tests {
                 camera(""),
                 header,
                 row,
-                "line 2: found `u` and `v` of camera `left`, whose matrix nobody knows",
+                "found camera `left` has no matrix, and all its pixels are the same",
+            ),
+            (
+                BOARD.to_owned(),
+                header,
+                row,
+                "line 2: found `u` and `v` of camera ``, which nobody knows",
             ),
             (camera(&format!("{MATRIX}\non = \"tool\"")), "q1,u,v", "0.1,1,2", "without a marker"),
             (camera(MATRIX), header, "0.1,c7,600,300", "unknown marker `c7`"),
