@@ -14,6 +14,7 @@ mod bench;
 mod distance;
 mod lens;
 mod level;
+mod look;
 mod pair;
 mod pictures;
 mod plane;
@@ -26,6 +27,7 @@ use nalgebra::{
 pub use aim::{Aim, Seen};
 pub use bench::Bench;
 pub use lens::Lens;
+pub use look::Look;
 pub use pair::Pair;
 pub use plane::Plane;
 pub(crate) use resection::pose;

@@ -39,7 +39,8 @@ pub(crate) fn matrix(
     let told = format!("camera `{camera}` has no matrix");
     if spread.is_nan() || spread <= 0.0 {
         let found = format!("{told}, and all its pixels are the same");
-        let help = "a plan needs the matrix, a rough one will do: `matrix = …` and `fit = [\"matrix\"]`";
+        let help =
+            "a plan needs the matrix, a rough one will do: `matrix = …` and `fit = [\"matrix\"]`";
         return Err(Fault::new(found, "pictures of a board in different places", help));
     }
     // All of some size about 1, so that no number of ω is lost beside another.
@@ -175,9 +176,15 @@ mod tests {
         assert!(told.contains("1 picture that tell of it, expected at least 2 pictures"), "{told}");
         // Four corners say two numbers beyond the board's place: nine need five pictures.
         let told = few(&[board[0], board[1], board[4], board[5]], &TILTS, 9);
-        assert!(told.contains("3 pictures that tell of it, expected at least 5 pictures"), "{told}");
+        assert!(
+            told.contains("3 pictures that tell of it, expected at least 5 pictures"),
+            "{told}"
+        );
         let told = few(&board[..3], &TILTS, OF_MATRIX);
-        assert!(told.contains("0 pictures that tell of it, expected at least 2 pictures"), "{told}");
+        assert!(
+            told.contains("0 pictures that tell of it, expected at least 2 pictures"),
+            "{told}"
+        );
         // Turned about the line of sight a board says the same again.
         let told = few(&board, &[[0.0, 0.0, 0.1], [0.0, 0.0, 0.9], [0.0, 0.0, 2.0]], OF_MATRIX);
         assert!(told.contains("tilted against each other"), "{told}");

@@ -1,8 +1,8 @@
 //! Where an object is by the directions in which a camera sees points of it.
 
 use nalgebra::{
-    DMatrix, Isometry3, Matrix2x3, Matrix3, Matrix3x4, Matrix6, Rotation3, Unit, UnitQuaternion, Vector2,
-    Vector3, Vector6,
+    DMatrix, Isometry3, Matrix2x3, Matrix3, Matrix3x4, Matrix6, Rotation3, Unit, UnitQuaternion,
+    Vector2, Vector3, Vector6,
 };
 
 /// Directions that differ by less than this part of an object's size make it flat.
@@ -41,8 +41,7 @@ impl Object {
         if seen.len() < LEAST[usize::from(!is_flat)] || size[1] <= FLAT * size[0] {
             return None;
         }
-        let turn =
-            Rotation3::from_matrix_unchecked(Matrix3::from_columns(&[x, y, x.cross(&y)]));
+        let turn = Rotation3::from_matrix_unchecked(Matrix3::from_columns(&[x, y, x.cross(&y)]));
         let frame =
             Isometry3::from_parts(middle.into(), UnitQuaternion::from_rotation_matrix(&turn));
         let scale = 1.0 / size[0];
