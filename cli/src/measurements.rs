@@ -129,7 +129,8 @@ pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
                 ));
             }
         }
-        said.extend(imported.said);
+        let new = imported.said.into_iter().filter(|line| !said.contains(line));
+        said.extend(new.collect::<Vec<_>>());
     }
     if let Some(source) = &source {
         let written = PathBuf::from("what was made of it");

@@ -10,7 +10,7 @@ use stiffarm_gap::dexterity::design::{Plan, Purpose, Station, Suspect, design};
 use stiffarm_gap::diagnose::Nuisance;
 use stiffarm_gap::effects::Catalogue;
 use stiffarm_gap::measurement::Dimension;
-use stiffarm_gap::observe::Lens;
+use stiffarm_gap::observe::{Lens, View};
 use stiffarm_gap::whole::Whole;
 use stiffarm_kernels::generic::Arm;
 
@@ -40,8 +40,8 @@ Postures are drawn within the joint limits; those that are not dexterous are lef
 which the loaded geometry (K_C) would matter most. Of the rest, each with one of the loads, those
 are chosen that together say most (D-optimality). For `identify` each posture is one displacement,
 loaded minus unloaded; for `diagnose` each is two poses, without a load and with one. With --bench the
-tool is in a [[point]] or on a [[plane]] at every posture, or the whole of a [[board]] in the picture of a
-[[camera]], and no joint is below a plane; what says where they are need only be rough. For `separate`
+tool is in a [[point]] or on a [[plane]] at every posture, or, where the bench has one, the whole of a
+[[board]] in the picture of its [[camera]], and no joint is below a plane; what says where they are need only be rough. For `separate`
 those are chosen in which neither of two effects can pass for the other (T-optimality): name both as
 `stiffarm diagnose` does, effect@place (`transmission_error@joint 2:cos 20` for one of its forms).
 
@@ -152,9 +152,17 @@ impl Args {
             Some(look) => Some(self.angle(Some(&look.lens))?),
             None => plan.noise_rotation,
         };
-        let places = places.into_iter().map(Station::Thing);
-        let bench = places.chain(looks.into_iter().map(Station::Board)).collect();
-        Ok(Plan { bench, noise_rotation, ..plan })
+        let plates = places.iter().filter_map(|aim| match aim.view {
+            View::Plane(plane) => Some(plane),
+            _ => None,
+        });
+        let plates = plates.collect();
+        // Beside a camera a plate is a table, and what else the bench has is another plan's.
+        let bench = match looks.is_empty() {
+            true => places.into_iter().map(Station::Thing).collect(),
+            false => looks.into_iter().map(Station::Board).collect(),
+        };
+        Ok(Plan { bench, plates, noise_rotation, ..plan })
     }
 
     /// Standard deviation of an angle, or of a coordinate in a picture.
@@ -188,6 +196,7 @@ impl Args {
             along: self.along(arm)?,
             loads,
             bench: Vec::new(),
+            plates: Vec::new(),
             noise_position: quantity::with_unit(
                 "--noise-position",
                 &self.noise_position,

@@ -2,9 +2,14 @@
 //!
 //! Of each picture the projective matrix P of the board is found, whatever the lens ([`Object::projected`]). Its columns are
 //! K times those of a rotation, so that they are perpendicular and of one length under ω = K⁻ᵀ K⁻¹, which is linear in ω
-//! (Zhang 2000; of a board whose points are in no plane there are three columns). A distortion is taken for 0.
+//! (Zhang 2000; of a board whose points are in no plane there are three columns). A distortion is taken for what was told
+//! there; [`refined`] finds it.
+
+mod fit;
 
 use nalgebra::{DMatrix, Matrix3, Vector2, Vector3};
+
+pub(crate) use fit::refined;
 
 use super::lens::OF_MATRIX;
 use super::resection::{Object, null};
@@ -129,10 +134,13 @@ mod tests {
 
     use super::*;
 
-    const MATRIX: [f64; OF_MATRIX] = [1210.0, 1190.0, 640.0, 355.0];
+    pub(in crate::observe) const MATRIX: [f64; OF_MATRIX] = [1210.0, 1190.0, 640.0, 355.0];
 
     /// A board at several tilts, by the pinhole's own definition.
-    fn pictures(points: &[Vector3<f64>], tilts: &[[f64; 3]]) -> Vec<Picture> {
+    pub(in crate::observe) fn pictures(
+        points: &[Vector3<f64>],
+        tilts: &[[f64; 3]],
+    ) -> Vec<Picture> {
         let [fx, fy, cx, cy] = MATRIX;
         let of = |tilt: &[f64; 3]| {
             let pose = Isometry3::new(Vector3::new(-0.1, 0.05, 0.8), Vector3::from(*tilt));
@@ -145,7 +153,7 @@ mod tests {
         tilts.iter().map(of).collect()
     }
 
-    fn board(is_flat: bool) -> Vec<Vector3<f64>> {
+    pub(in crate::observe) fn board(is_flat: bool) -> Vec<Vector3<f64>> {
         let at = |k: usize| {
             let z = if is_flat || k.is_multiple_of(2) { 0.0 } else { 0.04 };
             Vector3::new(0.05 * (k % 4) as f64, 0.05 * (k / 4) as f64, z)

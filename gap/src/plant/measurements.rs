@@ -44,7 +44,8 @@ pub fn csv(arm: &Arm, data: &Measurements, comments: &[String]) -> String {
             columns.add(format!("s{}", j + 1), side);
         }
     }
-    if all(|r| r.marker.is_some()) || data.by_board {
+    let has_corners = data.by_board && data.rows.iter().any(|r| r.marker.is_some());
+    if all(|r| r.marker.is_some()) || has_corners {
         columns.add("marker", |r| quoted(r.marker.as_deref()));
     }
     for (k, name) in WRENCH_NAMES.iter().enumerate() {

@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector, Isometry3};
 use stiffarm_kernels::generic::Arm;
 
 use super::Station;
-use crate::observe::{Aim, View};
+use crate::observe::{Aim, Plane};
 
 /// Steps that bring a posture there at most, and a step in joints, rad or m, as far as first order holds.
 const STEPS: usize = 60;
@@ -72,7 +72,7 @@ impl Station {
 /// joints' ranges, and no joint of the arm is below a plate.
 pub(super) fn reaches(
     arm: &Arm,
-    bench: &[Station],
+    plates: &[Plane],
     station: &Station,
     q: &mut [f64],
     ranges: &[[f64; 2]],
@@ -88,19 +88,14 @@ pub(super) fn reaches(
         q.iter_mut().zip(step.iter()).for_each(|(q, step)| *q += part * step);
     }
     let within = ranges.iter().zip(q.iter()).all(|([low, high], q)| (low..=high).contains(&q));
-    within && station.is_read(&arm.pose(q)) && is_above(arm, bench, q)
+    within && station.is_read(&arm.pose(q)) && is_above(arm, plates, q)
 }
 
 /// Whether every joint after the first is on the side of each plate to which its normal points.
-fn is_above(arm: &Arm, bench: &[Station], q: &[f64]) -> bool {
+fn is_above(arm: &Arm, plates: &[Plane], q: &[f64]) -> bool {
     let frames = arm.frames(q);
     let joints = || frames.iter().skip(1).take(arm.dof() - 1);
-    bench.iter().all(|station| match station {
-        Station::Thing(Aim { view: View::Plane(plane), .. }) => {
-            joints().all(|at| plane.height(&at.translation.vector) > 0.0)
-        }
-        _ => true,
-    })
+    plates.iter().all(|plate| joints().all(|at| plate.height(&at.translation.vector) > 0.0))
 }
 
 /// What is read of a thing per shift and turn of the tool, a row for each number.

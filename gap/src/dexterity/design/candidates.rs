@@ -102,7 +102,7 @@ fn at_bench(
         let wanted = count.div_ceil(things);
         let tried = (0..TRIES * wanted).filter_map(|_| {
             let mut q = rng.point(bounds);
-            bench::reaches(arm, &plan.bench, &plan.bench[thing], &mut q, bounds)
+            bench::reaches(arm, &plan.plates, &plan.bench[thing], &mut q, bounds)
                 .then_some((q, Some(thing)))
         });
         let before = all.len();

@@ -59,6 +59,8 @@ pub struct Plan {
     pub noise_rotation: Option<f64>,
     /// What is read of a bench in place of a position; none without a bench. Its constants are co-estimated.
     pub bench: Vec<Station>,
+    /// Plates below which no joint of the arm is.
+    pub plates: Vec<observe::Plane>,
     /// Of the postures drawn.
     pub seed: u64,
 }

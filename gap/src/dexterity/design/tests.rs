@@ -7,6 +7,7 @@ use super::{Design, Plan, Purpose, Station, Suspect};
 use crate::dexterity::{DexterityError, inverse_condition};
 use crate::effects::{Catalogue, Known};
 use crate::fixture::known;
+use crate::observe::View;
 use crate::whole::{Situation, Whole};
 
 fn kr240() -> Arm {
@@ -21,6 +22,7 @@ fn plan(purpose: Purpose) -> Plan {
     let pull = |x: f64, y: f64, z: f64| Vector6::new(x, y, z, 0.0, 0.0, 0.0);
     Plan {
         bench: Vec::new(),
+        plates: Vec::new(),
         count: 8,
         purpose,
         along: vec![],
@@ -306,8 +308,13 @@ fn postures_at_a_bench_are_where_it_is() {
     let text = "[[point]]\nname = \"a\"\nat = [0.4, 0.1, 0.3]\n[[point]]\nname = \"b\"\nat = [0.1, 0.4, 0.2]\n\
                 [[plane]]\nname = \"floor\"\nnormal = [0, 0, 1]\noffset = \"-0.6 m\"";
     let bench = crate::observe::Bench::read("b.toml", text).unwrap().places();
-    let targets = bench.iter().cloned().map(Station::Thing).collect();
-    let plan = Plan { count: 9, bench: targets, ..plan(Purpose::Diagnose) };
+    let stations = bench.iter().cloned().map(Station::Thing).collect();
+    let plates = bench.iter().filter_map(|aim| match aim.view {
+        View::Plane(plane) => Some(plane),
+        _ => None,
+    });
+    let plates = plates.collect();
+    let plan = Plan { count: 9, plates, bench: stations, ..plan(Purpose::Diagnose) };
     let found = design(&arm, &plan).unwrap();
     assert_eq!(found.tests.len(), 9);
     for test in &found.tests {
@@ -339,10 +346,10 @@ fn postures_before_a_camera_show_the_board() {
     for (text, constants) in [(hand, 12), (beside, 16)] {
         let looks = crate::observe::Bench::read("b.toml", &text).unwrap().looks();
         let [look] = &looks[..] else { panic!("{looks:?}") };
-        let target = Station::Board(look.clone());
-        assert_eq!(target.constants(), constants);
+        let station = Station::Board(look.clone());
+        assert_eq!(station.constants(), constants);
         let noise_rotation = Some(1e-4);
-        let plan = Plan { bench: vec![target], noise_rotation, ..plan(Purpose::Diagnose) };
+        let plan = Plan { bench: vec![station], noise_rotation, ..plan(Purpose::Diagnose) };
         let found = design(&arm, &plan).unwrap();
         within_limits(&arm, &found);
         assert_eq!(found.tests.len(), 8);

@@ -75,10 +75,13 @@ pub(crate) fn aligned(problem: &Problem<'_>) -> Result<Model, DiagnoseError> {
     if tool && orientation {
         let mut left = vec![Matrix3::zeros(); model.mounts.len().max(1)];
         for row in rows {
-            let Some(measured) = measured[row] else { continue };
+            // What has no place of its own on the tool says nothing of where the others are.
+            let number = problem.stands.mount_of[row];
+            let number = if model.mounts.is_empty() { Some(0) } else { number };
+            let (Some(measured), Some(number)) = (measured[row], number) else { continue };
             let turn = moved[problem.stands.base_of[row]].rotation * readings[row].rotation;
             let off = turn.inverse() * measured.rotation;
-            left[problem.stands.mount_of[row].unwrap_or(0)] += off.to_rotation_matrix().matrix();
+            left[number] += off.to_rotation_matrix().matrix();
         }
         let tools = match model.mounts.is_empty() {
             true => core::slice::from_mut(&mut model.arm.tool),

@@ -41,8 +41,9 @@ impl Search<'_, '_> {
             _ => format!(" in session {}", sessions[session]),
         };
         let frame = |frame: (Nuisance, usize)| {
+            let what = if frame.0 == Nuisance::BaseFrame { "in session" } else { "of" };
             let of = self.problem.frame_of(frame);
-            let of = of.map_or_else(String::new, |of| format!(" in session {of}"));
+            let of = of.map_or_else(String::new, |of| format!(" {what} {of}"));
             six.map(|k| format!("{k} of {}{of}", frame.0.identifier()))
         };
         let frames = self.problem.frames().flat_map(frame);

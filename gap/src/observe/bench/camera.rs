@@ -167,6 +167,7 @@ impl Camera {
         let pictures: Vec<_> = data.pictures().into_iter().map(of_picture).collect();
         let matrix = pictures::matrix(&self.name, self.free().len(), &pictures)?;
         let guess = Lens::guessed(matrix, &self.distortion);
+        let guess = pictures::refined(guess, self.free(), &pictures);
         for row in data.rows.iter_mut().filter(|row| own(row).is_some()) {
             if let Some(View::Camera { lens, .. }) = row.aim.as_mut().map(|aim| &mut aim.view) {
                 *lens = guess;
