@@ -74,7 +74,8 @@ pub(crate) fn matrix(
 /// What is missing: as many pictures like the best as the numbers need.
 fn too_few(told: &str, free: usize, objects: &[Object], says: impl Fn(&Object) -> usize) -> Fault {
     let counted = |count: usize| format!("{count} picture{}", if count == 1 { "" } else { "s" });
-    let found = format!("{told}, and {} that tell of it", counted(objects.len()));
+    let verb = if objects.len() == 1 { "tells" } else { "tell" };
+    let found = format!("{told}, and {} that {verb} of it", counted(objects.len()));
     let best = objects.iter().max_by_key(|object| object.numbers());
     let most = best.map_or([SAYS[0], SAYS[0]], |best| [says(best), best.numbers() - POSE]);
     let needed = OF_MATRIX.div_ceil(most[0]).max(free.div_ceil(most[1]));
@@ -181,7 +182,10 @@ mod tests {
         };
         let board = board(true);
         let told = few(&board, &TILTS[..1], OF_MATRIX);
-        assert!(told.contains("1 picture that tell of it, expected at least 2 pictures"), "{told}");
+        assert!(
+            told.contains("1 picture that tells of it, expected at least 2 pictures"),
+            "{told}"
+        );
         // Four corners say two numbers beyond the board's place: nine need five pictures.
         let told = few(&[board[0], board[1], board[4], board[5]], &TILTS, 9);
         assert!(
