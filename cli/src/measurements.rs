@@ -130,7 +130,8 @@ pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
             }
         }
         let new = imported.said.into_iter().filter(|line| !said.contains(line));
-        said.extend(new.collect::<Vec<_>>());
+        let new: Vec<String> = new.collect();
+        said.extend(new);
     }
     if let Some(source) = &source {
         let written = PathBuf::from("what was made of it");
