@@ -10,10 +10,13 @@
 3. Hand-eye on clean pixels: both frames to 1e-9, m and rad.
 4. Hand-eye on noisy pixels: the median error of the tool frame over `draws`, against the five methods of
    `cv2.calibrateHandEye`, each on OpenCV's own poses of the board.
+5. A camera of which nothing is known: the median error of its matrix over `draws`, against `cv2.calibrateCamera` on the
+   same pixels.
 """
 
 import csv
 import json
+import os
 import subprocess
 import sys
 import tempfile
@@ -22,7 +25,7 @@ from pathlib import Path
 import cv2
 import numpy as np
 
-STIFFARM = Path(__file__).parent.parent / "target/release/stiffarm"
+STIFFARM = Path(os.environ.get("STIFFARM", Path(__file__).parent.parent / "target/release/stiffarm"))
 ROBOT = "irb120"
 MATRIX = np.array([[1210.0, 0.0, 640.0], [0.0, 1190.0, 355.0], [0.0, 0.0, 1.0]])
 DISTORTION = np.array([-0.21, 0.07, 1e-3, -2e-3, 0.01])
@@ -90,10 +93,10 @@ def project(tool, board):
     return cv2.projectPoints(CORNERS.reshape(-1, 1, 3), turn, view[:3, 3], MATRIX, DISTORTION)[0].reshape(-1, 2)
 
 
-def bench(path):
+def bench(path, lens=f"matrix = {MATRIX.tolist()}\ndistortion = {DISTORTION.tolist()}"):
     corners = ", ".join(f"c{k} = [{x!r}, {y!r}, {z!r}]" for k, (x, y, z) in enumerate(CORNERS.tolist()))
     path.write_text(
-        f'[[camera]]\nname = "hand"\non = "tool"\nmatrix = {MATRIX.tolist()}\ndistortion = {DISTORTION.tolist()}\n'
+        f'[[camera]]\nname = "hand"\non = "tool"\n{lens}\n'
         f'[[board]]\nname = "charuco"\ncorners = {{ {corners} }}\n'
     )
 
@@ -112,6 +115,23 @@ def frames(folder, rows):
     words = ["--bench", folder / "bench.toml", "--effects", "instrument_scale", "--json", "-"]
     told = json.loads(stiffarm("diagnose", ROBOT, folder / "pixels.csv", *words))
     return [pose(n["rotation"], n["translation"]) for n in told["nuisances"]], told["gap"]
+
+
+def lenses(folder, noisy):
+    """How far fx, fy, cx, cy are off, px, ours and OpenCV's, of a lens of which nothing is known."""
+    bench(folder / "bench.toml", 'fit = ["distortion"]')
+    write(folder / "pixels.csv", noisy)
+    words = ["--bench", folder / "bench.toml", "--effects", "instrument_scale", "--json", "-"]
+    told = json.loads(stiffarm("diagnose", ROBOT, folder / "pixels.csv", *words))
+    constants = {c["name"]: c for c in told["bench"][0]["constants"]}
+    true = dict(zip(("fx", "fy", "cx", "cy"), MATRIX[[0, 1, 0, 1], [0, 1, 2, 2]]))
+    ours = [constants[name]["value"] - value for name, value in true.items()]
+    covered = [low <= true[name] <= high for name in true for low, high in [constants[name]["ci95"]]]
+    pixels = np.array([uv for _, _, uv in noisy], np.float32).reshape(POSTURES, -1, 1, 2)
+    board = [CORNERS.astype(np.float32)] * POSTURES
+    _, found, *_ = cv2.calibrateCamera(board, list(pixels), (1280, 720), None, None)
+    theirs = [found[i, j] - value for (i, j), value in zip(((0, 0), (1, 1), (0, 2), (1, 2)), true.values())]
+    return np.abs(ours), np.abs(theirs), covered
 
 
 def off(found, true):
@@ -186,6 +206,16 @@ def main():
             far, turned = np.median(errors, axis=0)
             print(f"  {name:10} {far * 1e3:.3f} mm, {turned * 1e3:.3f} mrad")
             assert mine[0] < far and mine[1] < turned
+
+        found = lenses(folder, clean)[0]
+        print(f"clean pixels, nothing known of the lens: matrix off by {max(found):.1e} px")
+        assert max(found) < 1e-6
+        off_by = [lenses(folder, [(q, k, uv + 0.3 * rng.standard_normal(2)) for q, k, uv in clean]) for _ in range(draws)]
+        mine, theirs = (np.median([one[side] for one in off_by], axis=0) for side in (0, 1))
+        covered = np.mean([one[2] for one in off_by])
+        print(f"noisy pixels, nothing known of the lens, median of {draws}: fx fy cx cy off by {mine.round(2)} px, "
+              f"cv2.calibrateCamera {theirs.round(2)} px; {covered:.1%} within our intervals of 95 %")
+        assert (mine < theirs).all() and covered > 0.9
 
 
 if __name__ == "__main__":

@@ -28,7 +28,7 @@ pub use check::Check;
 pub use compared::{Compared, Reached};
 use corrected::exported;
 pub use corrected::{Format, commented};
-pub use log::{Check as LogCheck, Motion};
+pub use log::{Check as LogCheck, Motion, Part, names, parts, read};
 pub use predicted::{Predicted, PredictedLog};
 pub use provenance::{Hashes, Provenance};
 pub use settings::{IN_MOTION, Settings};

@@ -6,11 +6,11 @@ mod screen;
 
 use clap::ValueEnum;
 use nalgebra::Vector6;
-use stiffarm_gap::dexterity::design::{Plan, Purpose, Suspect, design};
+use stiffarm_gap::dexterity::design::{Plan, Purpose, Station, Suspect, design};
 use stiffarm_gap::diagnose::Nuisance;
 use stiffarm_gap::effects::Catalogue;
 use stiffarm_gap::measurement::Dimension;
-use stiffarm_gap::observe::Aim;
+use stiffarm_gap::observe::{Lens, View};
 use stiffarm_gap::whole::Whole;
 use stiffarm_kernels::generic::Arm;
 
@@ -40,8 +40,8 @@ Postures are drawn within the joint limits; those that are not dexterous are lef
 which the loaded geometry (K_C) would matter most. Of the rest, each with one of the loads, those
 are chosen that together say most (D-optimality). For `identify` each posture is one displacement,
 loaded minus unloaded; for `diagnose` each is two poses, without a load and with one. With --bench the
-tool is in a [[point]] or on a [[plane]] at every posture, and no joint is below a plane; what says where
-they are need only be rough. For `separate`
+tool is in a [[point]] or on a [[plane]] at every posture, or, where the bench has one, the whole of a
+[[board]] in the picture of its [[camera]], and no joint is below a plane; what says where they are need only be rough. For `separate`
 those are chosen in which neither of two effects can pass for the other (T-optimality): name both as
 `stiffarm diagnose` does, effect@place (`transmission_error@joint 2:cos 20` for one of its forms).
 
@@ -84,7 +84,7 @@ pub struct Args {
     /// Standard deviation of a measured coordinate
     #[arg(long, value_name = "LENGTH", default_value = "30um", allow_hyphen_values = true)]
     noise_position: String,
-    /// Standard deviation of a measured rotation
+    /// Standard deviation of a measured rotation, or of a coordinate in a picture (0.2px)
     #[arg(long, value_name = "ANGLE", default_value = "0.1mrad", allow_hyphen_values = true)]
     noise_rotation: String,
     /// Seed of the postures that are chosen from; the same seed gives the same bytes
@@ -120,7 +120,7 @@ pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     }
     let arm = source.arm_at_its_base()?;
     let whole = Whole { arm: &arm, known: &source.known };
-    let plan = Plan { bench: args.places(&source, host)?, ..args.plan(&arm)? };
+    let plan = args.at_bench(args.plan(&arm)?, &source, host)?;
     let progress = Progress::new(&source.given, PARTS, host);
     let found = design(whole, &plan, &|part| progress.reach(part, PARTS));
     drop(progress);
@@ -133,18 +133,46 @@ pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
 }
 
 impl Args {
-    /// The things of the bench at which postures are planned.
-    fn places(&self, source: &Source, host: &Host) -> Result<Vec<Aim>, Failure> {
-        let places = self.bench.layout(source, host)?.bench.places();
-        if self.bench.is_given() && places.is_empty() {
-            let help =
-                "give each [[point]] its `at`, each [[plane]] its `normal` and `offset`, roughly";
+    /// The same where something of a bench is read.
+    fn at_bench(&self, plan: Plan, source: &Source, host: &Host) -> Result<Plan, Failure> {
+        if !self.bench.is_given() {
+            return Ok(plan);
+        }
+        let bench = self.bench.layout(source, host)?.bench;
+        let (places, looks) = (bench.places(), bench.looks());
+        if places.is_empty() && looks.is_empty() {
+            let help = "give each [[point]] its `at`, each [[plane]] its `normal` and `offset`, a [[camera]] and its \
+                        [[board]] their `at` and `rotation`, roughly";
             return Err(Failure::with_help("--bench: found nothing whose place is known", help));
         }
-        if self.bench.is_given() && self.purpose != For::Diagnose {
+        if self.purpose != For::Diagnose {
             return Err(Failure::new("--bench is for --for diagnose"));
         }
-        Ok(places)
+        let noise_rotation = match looks.first() {
+            Some(look) => Some(self.angle(Some(&look.lens))?),
+            None => plan.noise_rotation,
+        };
+        let plates = places.iter().filter_map(|aim| match aim.view {
+            View::Plane(plane) => Some(plane),
+            _ => None,
+        });
+        let plates = plates.collect();
+        // Beside a camera a plate is a table, and what else the bench has is another plan's.
+        let bench = match looks.is_empty() {
+            true => places.into_iter().map(Station::Thing).collect(),
+            false => looks.into_iter().map(Station::Board).collect(),
+        };
+        Ok(Plan { bench, plates, noise_rotation, ..plan })
+    }
+
+    /// Standard deviation of an angle, or of a coordinate in a picture.
+    fn angle(&self, lens: Option<&Lens>) -> Result<f64, Failure> {
+        let text = self.noise_rotation.trim();
+        let read = |dimension| quantity::with_unit("--noise-rotation", text, dimension);
+        match lens {
+            Some(lens) if text.ends_with("px") => Ok(read(Dimension::Pixels)? / lens.focus),
+            _ => read(Dimension::Angle),
+        }
     }
 
     fn plan(&self, arm: &Arm) -> Result<Plan, Failure> {
@@ -160,8 +188,6 @@ impl Args {
                 pull(0.0, 0.0, -1.0),
             ];
         }
-        let (length, angle) = (Dimension::Length, Dimension::Angle);
-        let turned = quantity::with_unit("--noise-rotation", &self.noise_rotation, angle)?;
         Ok(Plan {
             count: usize::from(self.count.ok_or_else(|| {
                 Failure::new("found no --count, expected how many postures: --count 20")
@@ -170,8 +196,13 @@ impl Args {
             along: self.along(arm)?,
             loads,
             bench: Vec::new(),
-            noise_position: quantity::with_unit("--noise-position", &self.noise_position, length)?,
-            noise_rotation: self.rotations.then_some(turned),
+            plates: Vec::new(),
+            noise_position: quantity::with_unit(
+                "--noise-position",
+                &self.noise_position,
+                Dimension::Length,
+            )?,
+            noise_rotation: self.rotations.then(|| self.angle(None)).transpose()?,
             seed: self.seed,
         })
     }

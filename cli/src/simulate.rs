@@ -9,8 +9,8 @@ use stiffarm_gap::Measurements;
 use stiffarm_gap::diagnose::Nuisance;
 use stiffarm_gap::effects::Known;
 use stiffarm_gap::measurement::{Dimension, Kind};
-use stiffarm_gap::observe::{Bench, View};
-use stiffarm_gap::plant::design::{Design, Shape, beside, placed};
+use stiffarm_gap::observe::{Bench, Seen, View};
+use stiffarm_gap::plant::design::{Design, Shape, beside, in_view, placed};
 use stiffarm_gap::plant::{Frames, Noise, Plant, Truth, csv};
 use stiffarm_kernels::generic::Arm;
 
@@ -144,8 +144,16 @@ enum MeasureArg {
     Point,
     /// Height above one of six plates, in unknown places
     Plane,
+    /// Distance from one of three ends of a wire or a ball bar, in unknown places
+    Wire,
+    /// A gauge of unknown zero along one of six directions
+    Along,
+    /// Two angles of a level on the flange, of unknown zeros
+    Tilt,
     /// Where the camera of --bench, beside the arm, shows each corner of its board on the tool
     Camera,
+    /// The pose of a board on the tool in the axes of a camera beside the arm, as a detector tells it
+    Board,
 }
 
 /// Most rows that are drawn.
@@ -156,9 +164,8 @@ pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     if let Some(target) = &args.log {
         return log::run(args, &source, target, host);
     }
-    let arm = args.experiment.placed(source.arm()?);
+    let (arm, design) = args.experiment.rows(args.data.as_ref(), &source, source.arm()?, host)?;
     let truths = args.truths(&arm)?;
-    let design = args.experiment.rows(args.data.as_ref(), &source, &arm, host)?;
     let noise = args.experiment.noise(&design)?;
     let seed = args.experiment.seed;
     let known: Vec<Known> =
@@ -220,44 +227,48 @@ impl Args {
 }
 
 impl ExperimentArgs {
-    /// The rows that are to be measured: of the file, or drawn.
+    /// The rows that are to be measured, of the file or drawn; and the arm where what measures it has it.
     pub fn rows(
         &self,
         file: Option<&PathBuf>,
         source: &Source,
-        arm: &Arm,
+        arm: Arm,
         host: &Host,
-    ) -> Result<Measurements, Failure> {
+    ) -> Result<(Arm, Measurements), Failure> {
         let layout = self.bench.layout(source, host)?;
-        match file {
-            Some(path) => {
-                let design = data::read_plan(path, &layout, host)?;
-                // What the file measures is replaced, its frames with it.
-                data::doubted(arm, &design, &Nuisance::ALL, host);
-                Ok(placed(arm, &design))
-            }
-            None => self.drawn(arm, &layout.bench, 0),
+        let Some(path) = file else {
+            let arm = if self.is_by_camera() { Arm { base: beside(&arm), ..arm } } else { arm };
+            let design = self.drawn(&arm, &layout.bench, 0)?;
+            return Ok((arm, design));
+        };
+        let mut design = data::read_plan(path, &layout, host)?;
+        // What the file measures is replaced, its frames with it.
+        data::doubted(&arm, &design, &Nuisance::ALL, host);
+        if !design.by_camera {
+            let design = placed(&arm, &design);
+            return Ok((arm, design));
         }
+        let arm = in_view(&arm, &mut design, &layout.bench)
+            .map_err(|fault| Failure::new(format!("{}: {fault}", path.display())))?;
+        Ok((arm, design))
     }
 
-    /// Whether a camera measures.
-    pub fn is_by_camera(&self) -> bool {
-        self.measure == MeasureArg::Camera
-    }
-
-    /// The arm where what measures it has it.
-    pub fn placed(&self, arm: Arm) -> Arm {
-        if self.is_by_camera() { Arm { base: beside(&arm), ..arm } } else { arm }
+    /// Whether a camera measures what is drawn.
+    fn is_by_camera(&self) -> bool {
+        matches!(self.measure, MeasureArg::Camera | MeasureArg::Board)
     }
 
     fn drawn(&self, arm: &Arm, bench: &Bench, more: u64) -> Result<Measurements, Failure> {
         let design = self.design()?;
         let design = Design { seed: design.seed.wrapping_add(more), ..design };
-        if !self.is_by_camera() {
-            return Ok(design.rows(arm));
-        }
         let refused = |fault| Failure::new(format!("--measure camera: {fault}"));
-        design.shown(arm, bench).map_err(refused)
+        Ok(match self.measure {
+            MeasureArg::Camera => design.shown(arm, bench).map_err(refused)?,
+            MeasureArg::Board => design.detected(arm),
+            MeasureArg::Wire => design.read_by(arm, Seen::Distance),
+            MeasureArg::Along => design.read_by(arm, Seen::Direction),
+            _ => design.rows(arm),
+        })
     }
 
     /// Four sessions of the same design at other poses.
@@ -302,13 +313,15 @@ impl ExperimentArgs {
             repeats: self.repeats,
             payload,
             kind: match self.measure {
-                MeasureArg::Pose => Kind::Pose { orientation: true },
+                MeasureArg::Pose | MeasureArg::Board => Kind::Pose { orientation: true },
                 MeasureArg::Position => Kind::Pose { orientation: false },
                 MeasureArg::Displacement => Kind::Displacement { components: [true; 6] },
                 MeasureArg::Distance => Kind::Distance,
                 MeasureArg::Point => Kind::Bench { lengths: 3, angles: false },
-                MeasureArg::Plane => Kind::Bench { lengths: 1, angles: false },
-                MeasureArg::Camera => Kind::Bench { lengths: 0, angles: true },
+                MeasureArg::Plane | MeasureArg::Wire | MeasureArg::Along => {
+                    Kind::Bench { lengths: 1, angles: false }
+                }
+                MeasureArg::Camera | MeasureArg::Tilt => Kind::Bench { lengths: 0, angles: true },
             },
             seed: self.seed,
         })

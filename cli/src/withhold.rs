@@ -111,8 +111,8 @@ fn report(args: &Args, host: &Host) -> Result<Report, Failure> {
     };
     let multiple = args.multiple([8.0, 20.0])?;
     let source = args.robot.load(host)?;
-    let arm = args.experiment.placed(source.arm_at_its_base()?);
-    let design = args.experiment.rows(args.data.as_ref(), &source, &arm, host)?;
+    let (arm, design) =
+        args.experiment.rows(args.data.as_ref(), &source, source.arm_at_its_base()?, host)?;
     let fresh = match args.data {
         Some(_) => Vec::new(),
         None => args.experiment.other_sessions(&source, &arm, host)?,
@@ -129,7 +129,7 @@ fn report(args: &Args, host: &Host) -> Result<Report, Failure> {
         predict: Some(&predict),
         noise: args.experiment.noise(&design)?,
         // Where a camera stands, and where its board sits, nobody knows.
-        frames: args.experiment.is_by_camera().then(Frames::default),
+        frames: design.by_camera.then(Frames::default),
         effects: &effects,
         options: &options,
     };

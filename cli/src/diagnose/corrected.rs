@@ -8,7 +8,7 @@ use stiffarm_codegen::emit::{lost_in_mjcf, lost_in_urdf, mjcf, urdf};
 use stiffarm_codegen::robot::Robot;
 use stiffarm_gap::Measurements;
 use stiffarm_gap::corrected::{Corrected, Outcome, corrected};
-use stiffarm_gap::diagnose::{Diagnosed, NuisanceReport};
+use stiffarm_gap::diagnose::{Diagnosed, Nuisance, NuisanceReport};
 use stiffarm_gap::effects;
 
 use crate::document::words::capital;
@@ -63,8 +63,9 @@ impl<'a> Corrections<'a> {
         caveats.extend(in_data.map(|wrong| {
             format!("no robot file mends that {}: {}", wrong.sentence, wrong.mending)
         }));
-        let bases = self.diagnosed.diagnosis.nuisances.iter().filter(|n| n.session.is_some());
-        if bases.count() > 0 {
+        let is_of_session =
+            |n: &NuisanceReport| n.session.is_some() && n.name != Nuisance::ToolFrame.identifier();
+        if self.diagnosed.diagnosis.nuisances.iter().any(is_of_session) {
             let text = "every session was measured in a frame of its own: [base] stays as it was, and \
                         another diagnosis of these rows takes --nuisance base_frame";
             caveats.push(text.to_owned());

@@ -2,10 +2,12 @@
 
 use nalgebra::Vector6;
 use stiffarm_codegen::robot::Frame;
-use stiffarm_gap::dexterity::design::{Design, Plan, Planned};
+use stiffarm_gap::dexterity::design::{Design, Plan, Planned, Station};
 use stiffarm_gap::io::{Columns, digits, quoted};
-use stiffarm_gap::measurement::{DISPLACEMENT_NAMES, Dimension, POSE_NAMES, WRENCH_NAMES};
-use stiffarm_gap::observe::Seen;
+use stiffarm_gap::measurement::{
+    DISPLACEMENT_NAMES, Dimension, PIXEL_NAMES, POSE_NAMES, WRENCH_NAMES,
+};
+use stiffarm_gap::observe::{Look, Seen};
 
 use crate::input::source::Source;
 
@@ -31,17 +33,31 @@ pub fn file(source: &Source, plan: &Plan, found: &Design) -> String {
             side(line).map_or_else(String::new, |side| side.to_string())
         });
     }
-    let aims = &plan.bench;
+    let bench = &plan.bench;
     for seen in [Seen::Point, Seen::Plane] {
-        if aims.iter().any(|aim| aim.seen == seen) {
-            columns.add(seen.thing(), move |line| {
-                let aim = line.test.thing.map(|thing| &aims[thing]);
-                quoted(aim.filter(|aim| aim.seen == seen).map(|aim| aim.name.as_str()))
-            });
+        let name = move |target: &Station| match target {
+            Station::Thing(aim) if aim.seen == seen => Some(aim.name.clone()),
+            _ => None,
+        };
+        if bench.iter().any(|target| name(target).is_some()) {
+            let of = move |line: &Line<'_>| line.test.thing.and_then(|thing| name(&bench[thing]));
+            columns.add(seen.thing(), move |line| quoted(of(line).as_deref()));
+        }
+    }
+    let has_boards = bench.iter().any(|target| matches!(target, Station::Board(_)));
+    if has_boards {
+        let names: [(&str, fn(&Look) -> &str); 2] =
+            [("camera", |look| &look.camera), ("board", |look| &look.board)];
+        for (head, name) in names {
+            columns.add(head, move |line| quoted(line.corner.map(|(look, _)| name(look))));
+        }
+        columns.add("marker", |line| quoted(line.corner.map(|(_, name)| name)));
+        for name in PIXEL_NAMES {
+            columns.add(format!("{name}[px]"), |_| String::new());
         }
     }
     let names = if found.displacements { DISPLACEMENT_NAMES } else { POSE_NAMES };
-    let measured = match (aims.is_empty(), plan.noise_rotation) {
+    let measured = match (bench.is_empty(), plan.noise_rotation) {
         (false, _) => 0,
         (true, None) => 3,
         (true, Some(_)) => 6,
@@ -63,6 +79,11 @@ pub fn file(source: &Source, plan: &Plan, found: &Design) -> String {
         false => format!("of the tool in the {frame}, before and under the load"),
     };
     let task = match measured {
+        0 if has_boards => {
+            "take a picture there, before and under the load, fill in where it shows each corner, leave out those \
+             that it does not show, and put in what the joints then read"
+                .to_owned()
+        }
         0 => {
             "bring the tool there, before and under the load, and put in what the joints then read"
                 .to_owned()
@@ -74,7 +95,18 @@ pub fn file(source: &Source, plan: &Plan, found: &Design) -> String {
     let sides = directed.then(|| sides.to_owned());
     let lines = found.tests.iter().enumerate().flat_map(|(number, test)| {
         let unloaded = (!found.displacements).then(Vector6::zeros);
-        unloaded.into_iter().chain([test.wrench]).map(move |load| Line { number, test, load })
+        let loads = unloaded.into_iter().chain([test.wrench]);
+        let board = test.thing.and_then(|thing| match &bench[thing] {
+            Station::Board(look) => Some(look),
+            Station::Thing(_) => None,
+        });
+        loads.flat_map(move |load| {
+            let rows: Vec<Option<(&Look, &str)>> = match board {
+                Some(look) => look.corners.iter().map(|(name, _)| Some((look, &**name))).collect(),
+                None => vec![None],
+            };
+            rows.into_iter().map(move |corner| Line { number, test, load, corner })
+        })
     });
     columns.text([format!("{robot}: {task}.")].into_iter().chain(sides), lines)
 }
@@ -85,4 +117,6 @@ struct Line<'a> {
     number: usize,
     test: &'a Planned,
     load: Vector6<f64>,
+    /// Of a board that a picture shows.
+    corner: Option<(&'a Look, &'a str)>,
 }

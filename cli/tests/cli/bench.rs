@@ -67,4 +67,147 @@ fn a_camera_finds_a_soft_joint_and_tells_it_in_pixels() {
     assert!(screen.contains("px rms") && screen.contains("Error in the picture"), "{screen}");
     let told = run(&format!("diagnose irb120 {data}")).refused();
     assert!(told.contains("the unknown marker `c0`"), "{told}");
+    // Without its matrix and distortion the lens is found, too.
+    let lens = CAMERA.lines().filter(|line| !line.starts_with("matrix"));
+    let lens: Vec<&str> = lens
+        .map(|l| if l.starts_with("distortion") { "fit = [\"distortion\"]" } else { l })
+        .collect();
+    let unknown = folder.file("unknown.toml", &lens.join("\n"));
+    let found = run(&format!("diagnose irb120 {data} --bench {unknown} --json -")).json();
+    assert_eq!(list(&found["findings"]).len(), 1, "{found}");
+    let constants = list(&found["bench"][0]["constants"]);
+    for (constant, (name, was)) in
+        constants.iter().zip([("fx", 1210.0), ("fy", 1190.0), ("cx", 640.0), ("cy", 355.0)])
+    {
+        let [low, high] = [0, 1].map(|k| number(&constant["ci95"][k]));
+        // Twice as wide: of four intervals of 95 % one may be missed by chance.
+        let off = number(&constant["value"]) - was;
+        assert!(constant["name"] == name && off.abs() < high - low, "{constant}");
+    }
+    let screen = run(&format!("diagnose irb120 {data} --bench {unknown}")).good();
+    assert!(screen.contains("camera left: fx 12") && screen.contains(" px, fy 1"), "{screen}");
+}
+
+/// What each kind of instrument reads of an arm comes back as the zero that was put in.
+#[test]
+fn every_kind_is_simulated_and_diagnosed() {
+    let folder = Folder::new();
+    let (bench, data) = (folder.file("bench.toml", CAMERA), folder.name("run.csv"));
+    let told = [
+        ("point", "points"),
+        ("plane", "planes"),
+        ("wire", "distance"),
+        ("along", "directions"),
+        ("tilt", "inclinometers"),
+        ("camera --noise-rotation 0.2px", "cameras"),
+        ("board", "x y z rx ry rz"),
+    ];
+    for (kind, subject) in told {
+        let how = format!("--measure {kind} --poses 60 --payload 3kg --bench {bench}");
+        let effect = "--effect 'joint_offset@joint 3=4e-3'";
+        run(&format!("simulate irb120 {how} --csv {data} {effect}")).good();
+        let found = run(&format!("diagnose irb120 {data} --bench {bench} --json -")).json();
+        let is = |one: &Value| one["effect"] == "joint_offset" && one["place"] == "joint 3";
+        let named =
+            |f: &Value| is(f) || f["alternatives"].as_array().is_some_and(|all| all.iter().any(is));
+        assert!(list(&found["findings"]).iter().any(named), "{kind}: {}", found["findings"]);
+        let screen = run(&format!("diagnose irb120 {data} --bench {bench}")).good();
+        assert!(screen.contains(&format!("measurements of {subject} at 60 poses")), "{screen}");
+    }
+}
+
+/// A camera on the tool over a board on the table: planned in view, simulated there, diagnosed.
+#[test]
+fn postures_in_view_are_planned_and_measured() {
+    let folder = Folder::new();
+    let there = CAMERA
+        .replace("matrix", "on = \"tool\"\nat = [0, \"60 mm\", 0]\nmatrix")
+        .replace("corners", "at = [0.35, 0, 0]\nrotation = [\"180 deg\", 0, 0]\ncorners");
+    let bench = folder.file("bench.toml", &there);
+    let [plan, data] = ["plan.csv", "run.csv"].map(|name| folder.name(name));
+    let how = format!("--bench {bench} --noise-rotation 0.2px");
+    let load = "--load 0,0,-30,0,0,0";
+    run(&format!("poses irb120 --for diagnose --count 16 {load} {how} --csv {plan}")).good();
+    let written = read(&plan);
+    has(&written, &["camera,board,marker,u[px],v[px]", ",left,charuco,c3,,"]);
+    assert_eq!(written.lines().filter(|line| !line.starts_with('#')).count(), 1 + 16 * 2 * 4);
+    let effect = "--effect 'joint_compliance@joint 2=8e-5'";
+    run(&format!("simulate irb120 {plan} {how} {effect} --csv {data}")).good();
+    let table = read(&data);
+    let head: Vec<&str> =
+        table.lines().find(|l| l.contains("u[px]")).unwrap_or_default().split(',').collect();
+    let at = |name: &str| head.iter().position(|head| *head == name).unwrap_or_default();
+    for line in table.lines().filter(|line| line.contains("charuco")) {
+        let cells: Vec<f64> = ["u[px]", "v[px]"]
+            .map(|name| line.split(',').nth(at(name)).and_then(|c| c.parse().ok()).unwrap_or(-1e9))
+            .to_vec();
+        // Twice the principal point, and a few pixels for noise and what the load moves.
+        assert!((-5.0..1285.0).contains(&cells[0]) && (-5.0..715.0).contains(&cells[1]), "{line}");
+    }
+    let found = run(&format!("diagnose irb120 {data} --bench {bench} --json -")).json();
+    let is = |one: &Value| one["effect"] == "joint_compliance" && one["place"] == "joint 2";
+    assert!(list(&found["findings"]).iter().any(is), "{found}");
+    let nowhere = folder.file("nowhere.toml", CAMERA);
+    let told = run(&format!("simulate irb120 {plan} --bench {nowhere}")).refused();
+    assert!(told.contains("a bench that says roughly where both are"), "{told}");
+}
+
+/// Joint values that a controller recorded in sockets, as tables of postures and as a log of an arm that is held there.
+#[test]
+fn recordings_in_sockets_become_measurements() {
+    let folder = Folder::new();
+    let data = folder.name("run.csv");
+    run(&format!("simulate irb120 --measure point --poses 24 --payload 0kg --effect 'joint_offset@joint 3=4e-3' --csv {data}")).good();
+    let text = read(&data);
+    let lines: Vec<&str> = text.lines().filter(|line| !line.starts_with('#')).collect();
+    let column = |name: &str| lines[0].split(',').position(|head| head == name).expect("a column");
+    let (point, joints) = (column("point"), column("q1[rad]"));
+    let rows = |socket: &str| -> Vec<Vec<f64>> {
+        let cells = |line: &&str| -> Vec<String> { line.split(',').map(str::to_owned).collect() };
+        let own = lines[1..].iter().map(cells).filter(|cells| cells[point].ends_with(socket));
+        own.map(|cells| {
+            cells[joints..joints + 6].iter().map(|c| c.parse().expect("a number")).collect()
+        })
+        .collect()
+    };
+    let sockets = [".1", ".2", ".3", ".4", ".5", ".6"];
+    let mut names = Vec::new();
+    for (k, socket) in sockets.iter().enumerate() {
+        let mut table = "J1;J2;J3;J4;J5;J6\n".to_owned();
+        for row in rows(socket) {
+            let cells: Vec<String> = row.iter().map(f64::to_string).collect();
+            table += &format!("{}\n", cells.join(";"));
+        }
+        names.push(folder.file(&format!("hole_{k}.csv"), &table));
+    }
+    let made = folder.name("sockets.csv");
+    let all = names.join(" ");
+    run(&format!("measurements {all} --set 'point=rack:{{file}}' --robot irb120 --csv {made}"))
+        .good();
+    has(&read(&made), &["q6[rad],point", ",rack:hole_0\n", ",rack:hole_5\n"]);
+    let found = run(&format!("diagnose irb120 {made} --json -")).json();
+    assert!(list(&found["findings"]).iter().any(|f| f["effect"] == "joint_offset"), "{found}");
+
+    // Held for a second each, moved in between.
+    let mut log = "t[s],q1[rad],q2[rad],q3[rad],q4[rad],q5[rad],q6[rad]\n".to_owned();
+    let postures = rows(".1");
+    let mut t = 0.0;
+    for pair in postures.windows(2) {
+        for step in 0..200 {
+            let part = (f64::from(step) / 100.0 - 1.0).max(0.0);
+            let q = pair[0].iter().zip(&pair[1]).map(|(a, b)| (a + part * (b - a)).to_string());
+            log += &format!("{t},{}\n", q.collect::<Vec<_>>().join(","));
+            t += 0.01;
+        }
+    }
+    let log = folder.file("held.csv", &log);
+    run(&format!("measurements {log} --still 0.8s --set point=one --robot irb120 --csv {made}"))
+        .good();
+    let text = read(&made);
+    assert_eq!(text.lines().count(), postures.len(), "{text}");
+    let told =
+        run(&format!("measurements {log} --still 5s --set point=one --robot irb120")).refused();
+    assert!(told.contains("no rest of 5 s"), "{told}");
+    let told = run(&format!("measurements {all} --set pint=one")).refused();
+    assert!(told.contains("`pint` that is set"), "{told}");
 }

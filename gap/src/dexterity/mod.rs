@@ -66,7 +66,8 @@ pub enum DexterityError {
     },
     /// A thing of a bench to which no posture goes.
     #[error(
-        "no posture within the joints' ranges brings the tool to {thing} with the arm above every plane: move it"
+        "no posture within the joints' ranges brings the tool to {thing} with the arm above every plane: move it, or \
+         mend `at`, `rotation` and `on` in the bench"
     )]
     OutOfReach {
         /// As reports call it.

@@ -265,25 +265,26 @@ fn diagnose_as_told(
     Ok(Diagnosed { diagnosis, explanation, beside_log, mended: None })
 }
 
-/// Every fold must leave poses by which the base of each session is told.
+/// Every fold must leave poses by which each base is told.
 fn enough_of_each_session(problem: &Problem<'_>, folds: &Folds) -> Result<(), DiagnoseError> {
-    let sessions = &problem.sessions;
-    if sessions.len() == 1 || !problem.is_unknown(Nuisance::BaseFrame) {
+    let bases = problem.stands.bases.len();
+    if bases == 1 || !problem.is_unknown(Nuisance::BaseFrame) {
         return Ok(());
     }
-    let mut held = vec![vec![0; folds.count]; sessions.len()];
-    let mut seen = vec![false; problem.data.poses];
-    let rows = problem.data.rows.iter().zip(&problem.session_of);
-    for (number, (row, session)) in rows.enumerate() {
-        if !std::mem::replace(&mut seen[row.group], true) {
-            held[*session][folds.of_row(number)] += 1;
+    let mut held = vec![vec![0; folds.count]; bases];
+    let mut seen = vec![vec![false; bases]; problem.data.poses];
+    let rows = problem.data.rows.iter().zip(&problem.stands.base_of);
+    for (number, (row, base)) in rows.enumerate() {
+        if !std::mem::replace(&mut seen[row.group][*base], true) {
+            held[*base][folds.of_row(number)] += 1;
         }
     }
-    for (session, held) in sessions.iter().zip(held) {
+    for (base, held) in held.into_iter().enumerate() {
         let most: usize = held.iter().copied().max().unwrap_or(0);
         let poses = held.iter().sum::<usize>() - most;
         if poses < LEAST_POSES {
-            let (file, session) = (problem.data.file.clone(), session.clone());
+            let (file, session) =
+                (problem.data.file.clone(), problem.stands.base(base).unwrap_or_default());
             return Err(DiagnoseError::ShortSession { file, session, poses });
         }
     }

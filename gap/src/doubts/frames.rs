@@ -10,7 +10,7 @@ use super::{reach, shown, simulated, spread};
 use crate::diagnose::{Nuisance, rigid};
 use crate::effects::Known;
 use crate::gap::rms;
-use crate::measurement::{Measurements, Row};
+use crate::measurement::{Measurements, Row, Stands};
 use crate::mistakes::moved;
 use crate::simulate::{Reading, simulate};
 
@@ -117,8 +117,8 @@ struct Points<'d> {
     data: &'d Measurements,
     /// With the joints where the robot file's effects have them.
     rows: Vec<(Reading, Row)>,
-    /// Of each row, its session.
-    session: Vec<usize>,
+    /// Of each row, the frame in which the arm stands.
+    base: Vec<usize>,
     /// Of each row, the marker whose place on the tool is unknown, and is fitted along in any case; the last for all others.
     marker: Vec<usize>,
     unknown: usize,
@@ -126,7 +126,7 @@ struct Points<'d> {
 
 /// Where the frames are.
 struct Framed {
-    /// Of each session.
+    /// Of each base.
     bases: Vec<Isometry3<f64>>,
     /// Of each unknown marker, and of all others, tool frame, m.
     points: Vec<Vector3<f64>>,
@@ -135,18 +135,16 @@ struct Framed {
 impl<'d> Points<'d> {
     fn of(arm: &Arm, data: &'d Measurements, known: &[Known]) -> Self {
         let moved = moved(arm, data, known);
+        let bases = Stands::of(data).base_of;
         let rows = spread(data).filter_map(|(number, row)| {
             let mut row = row.clone();
             let by = moved.get(number).into_iter().flatten();
             row.q.iter_mut().zip(by).for_each(|(q, by)| *q += by);
-            simulated(arm, data, 3, &row).map(|sim| (sim, row))
+            simulated(arm, data, 3, &row).map(|sim| ((sim, row), bases[number]))
         });
-        let rows: Vec<(Reading, Row)> = rows.collect();
-        let mut session: Vec<usize> = Vec::with_capacity(rows.len());
+        let (rows, base): (Vec<(Reading, Row)>, Vec<usize>) = rows.unzip();
         let mut names = Vec::new();
-        for (k, (_, row)) in rows.iter().enumerate() {
-            let is_new = k > 0 && rows[k - 1].1.session != row.session;
-            session.push(session.last().map_or(0, |last| last + usize::from(is_new)));
+        for (_, row) in &rows {
             if row.offset.is_none() && !names.contains(&row.marker) {
                 names.push(row.marker.clone());
             }
@@ -154,7 +152,7 @@ impl<'d> Points<'d> {
         let of =
             |row: &Row| names.iter().position(|name| row.offset.is_none() && *name == row.marker);
         let marker = rows.iter().map(|(_, row)| of(row).unwrap_or(names.len())).collect();
-        Points { data, rows, session, marker, unknown: names.len() }
+        Points { data, rows, base, marker, unknown: names.len() }
     }
 
     fn measured(&self, row: usize) -> Vector3<f64> {
@@ -166,17 +164,17 @@ impl<'d> Points<'d> {
     fn framed(&self, free: &[Nuisance]) -> Framed {
         let [has_base, has_tool] =
             [Nuisance::BaseFrame, Nuisance::ToolFrame].map(|frame| free.contains(&frame));
-        let sessions = self.session.last().map_or(0, |last| last + 1);
+        let count = self.base.iter().max().map_or(0, |last| last + 1);
         let mut framed = Framed {
-            bases: vec![Isometry3::identity(); sessions],
+            bases: vec![Isometry3::identity(); count],
             points: vec![Vector3::zeros(); self.unknown + 1],
         };
         let open = if has_tool { self.unknown + 1 } else { self.unknown };
         // Where one of them alone is free, its closed form is exact.
         for _ in 0..if has_base && open > 0 { TURNS } else { 1 } {
             if has_base {
-                for (session, base) in framed.bases.iter_mut().enumerate() {
-                    let rows = (0..self.rows.len()).filter(|row| self.session[*row] == session);
+                for (number, base) in framed.bases.iter_mut().enumerate() {
+                    let rows = (0..self.rows.len()).filter(|row| self.base[*row] == number);
                     let both = rows.map(|row| {
                         let sim = &self.rows[row].0;
                         let point = framed.points[self.marker[row]];
@@ -188,8 +186,7 @@ impl<'d> Points<'d> {
             }
             let mut sums = vec![(Vector3::zeros(), 0.0); self.unknown + 1];
             for (row, (sim, _)) in self.rows.iter().enumerate() {
-                let at =
-                    framed.bases[self.session[row]].inverse() * Point3::from(self.measured(row));
+                let at = framed.bases[self.base[row]].inverse() * Point3::from(self.measured(row));
                 let (sum, count) = &mut sums[self.marker[row]];
                 *sum += sim.rotation.inverse() * (at.coords - sim.position);
                 *count += 1.0;
@@ -213,7 +210,7 @@ impl<'d> Points<'d> {
     /// Where a row's point is simulated.
     fn at(&self, row: usize, sim: &Reading, framed: &Framed) -> Vector3<f64> {
         let point = Point3::from(sim.position + sim.rotation * framed.points[self.marker[row]]);
-        (framed.bases[self.session[row]] * point).coords
+        (framed.bases[self.base[row]] * point).coords
     }
 
     /// The least root mean square of the gap that another zero of a joint leaves, m. The point goes round a circle, or

@@ -14,6 +14,10 @@
 //! q2 = { column = "A2", unit = "deg", factor = -1, offset = 90 }   # factor · theirs + offset
 //! x = { column = "Pos X", unit = "mm" }
 //! mass = { column = "Last", unit = "kg" }
+//!
+//! [set]                        # columns that the table has not, the same in every row
+//! point = "front:{file}"       # the file's name without its end
+//! "from_x[mm]" = 1200
 //! ```
 
 use std::collections::BTreeMap;
@@ -48,6 +52,29 @@ pub struct Map {
     pub gravity: Option<[f64; 3]>,
     /// Ours, and what they call it.
     pub columns: BTreeMap<String, Theirs>,
+    /// Ours with its unit, and what stands in all rows of a table that lacks it.
+    pub set: BTreeMap<String, Cell>,
+}
+
+/// What stands in a cell: a text, or a number as one writes it.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(from = "Value")]
+pub struct Cell(pub String);
+
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum Value {
+    Text(String),
+    Number(f64),
+}
+
+impl From<Value> for Cell {
+    fn from(value: Value) -> Cell {
+        match value {
+            Value::Text(text) => Cell(text),
+            Value::Number(number) => Cell(number.to_string()),
+        }
+    }
 }
 
 /// A column of theirs: a name, or more.

@@ -22,7 +22,7 @@ mod unit;
 mod write;
 
 pub use convention::{Convention, Euler};
-pub use map::Map;
+pub use map::{Cell, Map};
 pub use mistake::{Column, Fault, MOST_MISTAKES, Mistake, ReadError};
 pub use nearest::{did_you_mean, listed, nearest};
 pub use source::{MOST_BYTES, bytes};

@@ -20,9 +20,10 @@ mod payload;
 mod role;
 mod seen;
 mod stack;
+mod stands;
 mod told;
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
@@ -30,9 +31,11 @@ use std::path::Path;
 use nalgebra::Vector6;
 
 pub use payload::{Body, Hung, Payloads};
+pub use stands::Sight;
+
 pub use role::{
-    DISPLACEMENT_NAMES, DISTANCE_NAMES, FROM_NAMES, Layout, Marker, NORMAL_NAMES, PIXEL_NAMES,
-    POSE_NAMES, READING_NAMES, SIGMA_PREFIX, SIM_PREFIX, TILT_NAMES, WRENCH_NAMES,
+    BOARD_NAMES, DISPLACEMENT_NAMES, DISTANCE_NAMES, FROM_NAMES, Layout, Marker, NORMAL_NAMES,
+    PIXEL_NAMES, POSE_NAMES, READING_NAMES, SIGMA_PREFIX, SIM_PREFIX, TILT_NAMES, WRENCH_NAMES,
 };
 
 use crate::io::cell::number;
@@ -46,6 +49,7 @@ use crate::observe::{Aim, Pair, Seen, View};
 
 pub(crate) use group::Near;
 pub(crate) use role::{Role, nearest_name};
+pub(crate) use stands::{Base, Stands, number_of};
 
 /// A measurement file, in SI.
 #[derive(Clone, Debug, PartialEq)]
@@ -200,8 +204,8 @@ pub struct Row {
     pub session: Option<String>,
     /// What the `payload` column hangs on the tool; its weight is part of the wrench.
     pub payload: Option<Box<Hung>>,
-    /// The names of the camera and the board of whose pose is told, in the camera's axes; may be empty.
-    pub camera: Option<Box<[String; 2]>>,
+    /// The camera by which it is seen.
+    pub camera: Option<Box<Sight>>,
     /// What is read of the measured point by an instrument that is no tracker.
     pub aim: Option<Box<Aim>>,
     /// Position and rotation vector, or displacement, m and rad; 0 where it is not measured. One number
@@ -313,6 +317,18 @@ impl Measurements {
     /// The rows of each session, in the order of measuring; at least one where there are rows.
     pub fn sessions(&self) -> impl Iterator<Item = &[Row]> {
         self.rows.chunk_by(|a, b| a.session == b.session)
+    }
+
+    /// The rows of each picture: those of a camera and board at one posture under one load.
+    pub(crate) fn pictures(&self) -> Vec<Vec<usize>> {
+        let mut pictures: BTreeMap<_, Vec<usize>> = BTreeMap::new();
+        for (number, row) in self.rows.iter().enumerate() {
+            let load = row.wrench.map(|force| (force + 0.0).to_bits()).data.0;
+            let names = row.camera.as_ref().map(|sight| (&sight.camera, &sight.board));
+            let picture = (&row.session, row.group, load, names);
+            pictures.entry(picture).or_default().push(number);
+        }
+        pictures.into_values().collect()
     }
 
     /// Whether every row has a time.

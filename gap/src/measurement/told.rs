@@ -3,7 +3,7 @@
 use nalgebra::{Quaternion, UnitQuaternion, Vector3, Vector6};
 
 use super::role::{Family, Role};
-use super::{Kind, Row};
+use super::{Kind, Row, Sight};
 use crate::io::{Dimension, Fault};
 use crate::observe::{Aim, Seen, View};
 
@@ -72,7 +72,8 @@ impl Told {
         }
         if self.camera.is_some() || self.board.is_some() {
             let name = |name: Option<String>| name.unwrap_or_default();
-            row.camera = Some(Box::new([name(self.camera), name(self.board)]));
+            let (camera, board) = (name(self.camera), name(self.board));
+            row.camera = Some(Box::new(Sight { camera, board, ..Sight::default() }));
         }
         if !matches!(kind, Some(Kind::Distance | Kind::Bench { .. })) {
             return Ok(());
@@ -103,7 +104,7 @@ impl Told {
                 return Err(Fault::new("more than one reading", ONE, "empty the other cells"));
             }
             let name = row.camera.as_ref().filter(|_| seen == Seen::Camera);
-            let name = name.map_or_else(String::new, |names| names[0].clone());
+            let name = name.map_or_else(String::new, |sight| sight.camera.clone());
             row.aim = Some(Box::new(Aim::at(seen, name)));
             row.measured[3] = first;
             row.measured[4] = second;

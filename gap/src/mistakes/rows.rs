@@ -5,7 +5,7 @@ use stiffarm_kernels::generic::Arm;
 
 use super::kind::{Mistake, Told, own_wrench};
 use crate::effects::{Carrier, Known};
-use crate::measurement::{Measurements, Row};
+use crate::measurement::{Measurements, Row, Stands, number_of};
 use crate::simulate::Moments;
 
 /// Rows that a fit is of. A mistake that moves the tool by millimetres is seen on a few dozen.
@@ -16,11 +16,11 @@ pub(super) struct Rows<'a> {
     pub data: &'a Measurements,
     /// Numbers of the rows.
     pub chosen: Vec<usize>,
-    /// Session of each row of the file.
-    pub session_of: Vec<usize>,
-    /// Measured point of each row of the file: a marker in a session, since a target may be put on anew.
+    /// Frames in which each row of the file is told.
+    pub frame_of: Vec<usize>,
+    /// Measured point of each row of the file: a marker in these, since a target may be put on anew.
     pub point_of: Vec<usize>,
-    pub sessions: usize,
+    pub frames: usize,
     /// For each measured point, where the file says that it is on the tool, m.
     pub points: Vec<[f64; 3]>,
     /// What the robot file's effects move each joint by, for each row of the file; empty without any.
@@ -31,25 +31,21 @@ impl<'a> Rows<'a> {
     /// Of measurements of `arm` that has the effects `known`.
     pub(super) fn of(arm: &Arm, data: &'a Measurements, known: &[Known]) -> Self {
         let every = data.rows.len().div_ceil(MOST);
-        let (mut session_of, mut point_of) = (Vec::new(), Vec::new());
-        let mut names: Vec<(usize, Option<&String>)> = Vec::new();
-        let (mut points, mut sessions) = (Vec::new(), 0);
-        for rows in data.sessions() {
-            for row in rows {
-                let name = (sessions, row.marker.as_ref());
-                let known = names.iter().position(|known| *known == name);
-                point_of.push(known.unwrap_or_else(|| {
-                    names.push(name);
-                    points.push(row.offset.unwrap_or_default());
-                    names.len() - 1
-                }));
-                session_of.push(sessions);
+        let stands = Stands::of(data);
+        let (mut frames, mut names, mut points) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut frame_of, mut point_of) = (Vec::new(), Vec::new());
+        for (row, both) in data.rows.iter().zip(stands.base_of.iter().zip(&stands.mount_of)) {
+            let frame = number_of(&mut frames, both);
+            let point = number_of(&mut names, (frame, row.marker.as_ref()));
+            if point == points.len() {
+                points.push(row.offset.unwrap_or_default());
             }
-            sessions += 1;
+            frame_of.push(frame);
+            point_of.push(point);
         }
         let chosen = (0..data.rows.len()).step_by(every).collect();
         let moved = moved(arm, data, known);
-        Rows { data, chosen, session_of, point_of, sessions, points, moved }
+        Rows { data, chosen, frame_of, point_of, frames: frames.len(), points, moved }
     }
 
     /// The same of at most `most` rows.
@@ -86,7 +82,7 @@ impl<'a> Rows<'a> {
     /// The row so many rows on, in the same session.
     fn neighbour(&self, row: usize, by: i32) -> Option<usize> {
         let at = row.checked_add_signed(by as isize)?;
-        (self.session_of.get(at)? == &self.session_of[row]).then_some(at)
+        (self.data.rows.get(at)?.session == self.data.rows[row].session).then_some(at)
     }
 
     /// Whether a half of the rows, or more, stand where those with a reading that is stuck are left out.

@@ -27,10 +27,14 @@
 //! matrix = [[900, 0, 640], [0, 900, 360], [0, 0, 1]]
 //! distortion = [-0.2, 0.05, 0.001, -0.002, 0.01]
 //! fit = ["matrix"]              # these values are near, and fitted along
+//! at = [0, "60 mm", 0]          # roughly, for plans: on the tool in the tool frame, else in the measuring frame
+//! rotation = [0, 0, "90 deg"]   # its axes there, a rotation vector; or, beside the arm, `towards` a point
+//! size = [1280, 720]            # of the picture, px; else twice the principal point
 //!
 //! [[board]]
 //! name = "charuco"
 //! on = "base"                   # else "tool"; where the camera is not
+//! at = [0.5, 0, 0]              # roughly, for plans; `rotation` as a camera's
 //! corners = { c0 = ["0 mm", "0 mm", "0 mm"], c1 = ["30 mm", "0 mm", "0 mm"] }
 //! ```
 //!
@@ -102,25 +106,42 @@ struct Length(f64);
 #[derive(Deserialize)]
 #[serde(untagged)]
 enum Written {
-    Metres(f64),
+    Si(f64),
     Text(String),
+}
+
+/// rad.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(try_from = "Written")]
+struct Angle(f64);
+
+impl Written {
+    /// In SI: what it is, and the unit of a bare number.
+    fn of(self, dimension: Dimension, [what, si]: [&str; 2]) -> Result<f64, String> {
+        let (found, value) = match self {
+            Written::Si(value) => (value.to_string(), Some(value)),
+            Written::Text(text) => (format!("{text:?}"), quantity(&text, Some(dimension))),
+        };
+        value.filter(|x| x.is_finite()).ok_or_else(|| {
+            let units = dimension.units();
+            format!("{found} is no {what}: write {si}, or a text with one of {units}")
+        })
+    }
 }
 
 impl TryFrom<Written> for Length {
     type Error = String;
 
     fn try_from(written: Written) -> Result<Length, String> {
-        let (found, length) = match written {
-            Written::Metres(metres) => (metres.to_string(), Some(metres)),
-            Written::Text(text) => {
-                let length = quantity(&text, Some(Dimension::Length));
-                (format!("{text:?}"), length)
-            }
-        };
-        length.filter(|x| x.is_finite()).map(Length).ok_or_else(|| {
-            let units = Dimension::Length.units();
-            format!("{found} is no length: write metres, or a text with one of {units}")
-        })
+        written.of(Dimension::Length, ["length", "metres"]).map(Length)
+    }
+}
+
+impl TryFrom<Written> for Angle {
+    type Error = String;
+
+    fn try_from(written: Written) -> Result<Angle, String> {
+        written.of(Dimension::Angle, ["angle", "radians"]).map(Angle)
     }
 }
 

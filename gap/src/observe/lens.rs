@@ -38,6 +38,8 @@ pub struct Lens {
     pub focus: f64,
     /// The matrix in these parts, then the distortion.
     constants: [f64; CONSTANTS],
+    /// The distortion as it was told, where these are a first guess: nothing holds the matrix but what is seen.
+    beside_guess: Option<[f64; CONSTANTS - OF_MATRIX]>,
 }
 
 /// What is seen, by place and by constants.
@@ -54,7 +56,14 @@ impl Lens {
         let mut constants = [0.0; CONSTANTS];
         let scaled = matrix.iter().map(|x| x / focus).chain(distortion.iter().copied());
         constants.iter_mut().zip(scaled).for_each(|(to, from)| *to = from);
-        Lens { focus, constants }
+        Lens { focus, constants, beside_guess: None }
+    }
+
+    /// The same where the matrix is a first guess.
+    pub(super) fn guessed(matrix: [f64; OF_MATRIX], distortion: &[f64]) -> Lens {
+        let lens = Lens::new(matrix, distortion);
+        let [_, _, _, _, told @ ..] = lens.constants;
+        Lens { beside_guess: Some(told), ..lens }
     }
 
     /// A constant as it is told: of the matrix in pixels.
@@ -63,10 +72,15 @@ impl Lens {
     }
 
     /// How far a constant is from what it is near, over a standard deviation that is rough on purpose: a data sheet's
-    /// focal length is right to some hundredths, and a distortion is a few tenths at the most.
-    pub(crate) fn strayed(&self, told: &Lens, number: usize) -> (f64, f64) {
-        let near = if number < OF_MATRIX { NEAR_MATRIX } else { NEAR_DISTORTION };
-        ((told.constants[number] - self.constants[number]) / near, 1.0 / near)
+    /// focal length is right to some hundredths, and a distortion is a few tenths at the most. A guess holds nothing.
+    pub(crate) fn strayed(&self, told: &Lens, number: usize) -> Option<(f64, f64)> {
+        let (near, told) = match (number.checked_sub(OF_MATRIX), told.beside_guess) {
+            (None, Some(_)) => return None,
+            (None, None) => (NEAR_MATRIX, told.constants[number]),
+            (Some(k), Some(distortion)) => (NEAR_DISTORTION, distortion[k]),
+            (Some(_), None) => (NEAR_DISTORTION, told.constants[number]),
+        };
+        Some(((told - self.constants[number]) / near, 1.0 / near))
     }
 
     /// Of a constant's own unit in that in which it is told.

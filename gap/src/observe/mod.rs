@@ -14,7 +14,9 @@ mod bench;
 mod distance;
 mod lens;
 mod level;
+mod look;
 mod pair;
+mod pictures;
 mod plane;
 mod resection;
 
@@ -25,6 +27,7 @@ use nalgebra::{
 pub use aim::{Aim, Seen};
 pub use bench::Bench;
 pub use lens::Lens;
+pub use look::Look;
 pub use pair::Pair;
 pub use plane::Plane;
 pub(crate) use resection::pose;
@@ -170,7 +173,7 @@ impl View {
         let (View::Camera { lens, .. }, View::Camera { lens: told, .. }) = (self, told) else {
             return None;
         };
-        Some(lens.strayed(told, constant))
+        lens.strayed(told, constant)
     }
 
     /// In what its readings are told, and what one of it is in m or rad.

@@ -1,8 +1,8 @@
 //! Where an object is by the directions in which a camera sees points of it.
 
 use nalgebra::{
-    DMatrix, Isometry3, Matrix2x3, Matrix3, Matrix6, Rotation3, Unit, UnitQuaternion, Vector2,
-    Vector3, Vector6,
+    DMatrix, Isometry3, Matrix2x3, Matrix3, Matrix3x4, Matrix6, Rotation3, Unit, UnitQuaternion,
+    Vector2, Vector3, Vector6,
 };
 
 /// Directions that differ by less than this part of an object's size make it flat.
@@ -15,45 +15,100 @@ const LEAST: [usize; 2] = [4, 6];
 const STEPS: usize = 50;
 const LAST: f64 = 1e-13;
 
-/// The pose of an object in the camera's axes, by points of it and the directions `x/z, y/z` in which they are seen:
-/// by a homography of a flat object or the direct linear transform of another (Hartley & Zisserman 2004, 4.1 and 7.1),
-/// and then by least squares. `None` of too few points, or of points on a line.
-pub(crate) fn pose(seen: &[(Vector3<f64>, Vector2<f64>)]) -> Option<Isometry3<f64>> {
-    let middle = seen.iter().map(|(p, _)| p).sum::<Vector3<f64>>() / seen.len().max(1) as f64;
-    let spread: Matrix3<f64> =
-        seen.iter().map(|(p, _)| (p - middle) * (p - middle).transpose()).sum();
-    let mut own = spread.symmetric_eigen();
-    // The least spread last, so that a flat object lies in x and y.
-    let mut order = [0, 1, 2];
-    order.sort_by(|a, b| own.eigenvalues[*b].total_cmp(&own.eigenvalues[*a]));
-    let axes = order.map(|k| own.eigenvectors.column(k).into_owned());
-    let size = order.map(|k| own.eigenvalues[k].max(0.0).sqrt());
-    own.eigenvectors = Matrix3::from_columns(&[axes[0], axes[1], axes[0].cross(&axes[1])]);
-    let is_flat = size[2] <= FLAT * size[0];
-    if seen.len() < LEAST[usize::from(!is_flat)] || size[1] <= FLAT * size[0] {
-        return None;
-    }
-    let turn = Rotation3::from_matrix_unchecked(own.eigenvectors);
-    let frame = Isometry3::from_parts(middle.into(), UnitQuaternion::from_rotation_matrix(&turn));
-    let scale = 1.0 / size[0];
-    let local: Vec<_> = seen
-        .iter()
-        .map(|(p, d)| (scale * (frame.inverse() * nalgebra::Point3::from(*p)).coords, *d))
-        .collect();
-    let first = if is_flat { flat(&local)? } else { solid(&local)? };
-    let mut starts = vec![first];
-    if is_flat {
-        starts.push(mirrored(&first));
-    }
-    let refined = starts.iter().map(|start| refined(&local, *start));
-    let (mut best, _) = refined.min_by(|(_, a), (_, b)| a.total_cmp(b))?;
-    best.translation.vector /= scale;
-    let is_finite = best.to_homogeneous().iter().all(|x| x.is_finite());
-    Some(best * frame.inverse()).filter(|_| is_finite)
+/// Points of an object and where they are seen, told in axes in which a flat object has z = 0.
+pub(super) struct Object {
+    pub(super) is_flat: bool,
+    /// Where these axes stand in the object's own.
+    frame: Isometry3<f64>,
+    /// Of them per m.
+    scale: f64,
+    local: Vec<(Vector3<f64>, Vector2<f64>)>,
 }
 
-/// Nine or twelve numbers, up to a factor, that make equations of two rows for each point 0.
-fn null(rows: &[Vec<f64>]) -> Option<Vec<f64>> {
+impl Object {
+    /// `None` of too few points, or of points on a line.
+    pub(super) fn of(seen: &[(Vector3<f64>, Vector2<f64>)]) -> Option<Object> {
+        let middle = seen.iter().map(|(p, _)| p).sum::<Vector3<f64>>() / seen.len().max(1) as f64;
+        let spread: Matrix3<f64> =
+            seen.iter().map(|(p, _)| (p - middle) * (p - middle).transpose()).sum();
+        let own = spread.symmetric_eigen();
+        // The least spread last, so that a flat object lies in x and y.
+        let mut order = [0, 1, 2];
+        order.sort_by(|a, b| own.eigenvalues[*b].total_cmp(&own.eigenvalues[*a]));
+        let [x, y, _] = order.map(|k| own.eigenvectors.column(k).into_owned());
+        let size = order.map(|k| own.eigenvalues[k].max(0.0).sqrt());
+        let is_flat = size[2] <= FLAT * size[0];
+        if seen.len() < LEAST[usize::from(!is_flat)] || size[1] <= FLAT * size[0] {
+            return None;
+        }
+        let turn = Rotation3::from_matrix_unchecked(Matrix3::from_columns(&[x, y, x.cross(&y)]));
+        let frame =
+            Isometry3::from_parts(middle.into(), UnitQuaternion::from_rotation_matrix(&turn));
+        let scale = 1.0 / size[0];
+        let local = seen
+            .iter()
+            .map(|(p, d)| (scale * (frame.inverse() * nalgebra::Point3::from(*p)).coords, *d));
+        Some(Object { is_flat, frame, scale, local: local.collect() })
+    }
+
+    /// How many numbers are seen.
+    pub(super) fn numbers(&self) -> usize {
+        2 * self.local.len()
+    }
+
+    /// The projective matrix that takes its points to where they are seen, up to a factor: by a homography of a flat
+    /// object, whose third column is 0, or the direct linear transform of another (Hartley & Zisserman 2004, 4.1 and
+    /// 7.1).
+    pub(super) fn projected(&self) -> Option<Matrix3x4<f64>> {
+        let of = |p: &Vector3<f64>| match self.is_flat {
+            true => vec![p.x, p.y, 1.0],
+            false => vec![p.x, p.y, p.z, 1.0],
+        };
+        let rows = self.local.iter().flat_map(|(p, d)| equations(&of(p), d));
+        let found = null(&rows.collect::<Vec<_>>())?;
+        Some(match self.is_flat {
+            true => Matrix3::from_row_slice(&found).insert_column(2, 0.0),
+            false => Matrix3x4::from_row_slice(&found),
+        })
+    }
+
+    /// A pose near that in which it is seen, where what is seen are directions.
+    fn first(&self) -> Option<Isometry3<f64>> {
+        let found = self.projected()?;
+        let [x, y, z, place]: [Vector3<f64>; 4] =
+            core::array::from_fn(|k| found.column(k).into_owned());
+        // What is seen is in front.
+        let (factor, turn) = if self.is_flat {
+            let factor = place.z.signum() * 2.0 / (x.norm() + y.norm());
+            let [x, y] = [x * factor, y * factor];
+            (factor, Matrix3::from_columns(&[x, y, x.cross(&y)]))
+        } else {
+            let turn = Matrix3::from_columns(&[x, y, z]);
+            let factor = turn.determinant().signum() / turn.determinant().abs().cbrt();
+            (factor, turn * factor)
+        };
+        Some(Isometry3::from_parts((place * factor).into(), near(&turn)?))
+    }
+}
+
+/// The pose of an object in the camera's axes, by points of it and the directions `x/z, y/z` in which they are seen:
+/// from a linear guess by least squares. `None` of too few points, or of points on a line.
+pub(crate) fn pose(seen: &[(Vector3<f64>, Vector2<f64>)]) -> Option<Isometry3<f64>> {
+    let object = Object::of(seen)?;
+    let first = object.first()?;
+    let mut starts = vec![first];
+    if object.is_flat {
+        starts.push(mirrored(&first));
+    }
+    let refined = starts.iter().map(|start| refined(&object.local, *start));
+    let (mut best, _) = refined.min_by(|(_, a), (_, b)| a.total_cmp(b))?;
+    best.translation.vector /= object.scale;
+    let is_finite = best.to_homogeneous().iter().all(|x| x.is_finite());
+    Some(best * object.frame.inverse()).filter(|_| is_finite)
+}
+
+/// The numbers, up to a factor, that make linear equations, a row each, 0.
+pub(super) fn null(rows: &[Vec<f64>]) -> Option<Vec<f64>> {
     let columns = rows.first()?.len();
     let matrix = DMatrix::from_fn(rows.len(), columns, |i, k| rows[i][k]);
     let own = matrix.tr_mul(&matrix).symmetric_eigen();
@@ -66,27 +121,6 @@ fn equations(point: &[f64], direction: &Vector2<f64>) -> [Vec<f64>; 2] {
         [first, second, -by].iter().flat_map(|part| point.iter().map(move |x| x * part)).collect()
     };
     [row(1.0, 0.0, direction.x), row(0.0, 1.0, direction.y)]
-}
-
-/// By the homography of points with z = 0.
-fn flat(seen: &[(Vector3<f64>, Vector2<f64>)]) -> Option<Isometry3<f64>> {
-    let rows = seen.iter().flat_map(|(p, d)| equations(&[p.x, p.y, 1.0], d));
-    let h = Matrix3::from_row_slice(&null(&rows.collect::<Vec<_>>())?);
-    let columns: [Vector3<f64>; 3] = core::array::from_fn(|k| h.column(k).into_owned());
-    // What is seen is in front.
-    let factor = columns[2].z.signum() * 2.0 / (columns[0].norm() + columns[1].norm());
-    let [x, y, place] = columns.map(|column| column * factor);
-    Some(Isometry3::from_parts(place.into(), near(&Matrix3::from_columns(&[x, y, x.cross(&y)]))?))
-}
-
-/// By the direct linear transform.
-fn solid(seen: &[(Vector3<f64>, Vector2<f64>)]) -> Option<Isometry3<f64>> {
-    let rows = seen.iter().flat_map(|(p, d)| equations(&[p.x, p.y, p.z, 1.0], d));
-    let m = nalgebra::Matrix3x4::from_row_slice(&null(&rows.collect::<Vec<_>>())?);
-    let turn: Matrix3<f64> = m.fixed_columns::<3>(0).into_owned();
-    let factor = turn.determinant().signum() / turn.determinant().abs().cbrt();
-    let rotation = near(&(turn * factor))?;
-    Some(Isometry3::from_parts((m.column(3) * factor).into_owned().into(), rotation))
 }
 
 fn near(matrix: &Matrix3<f64>) -> Option<UnitQuaternion<f64>> {

@@ -5,8 +5,8 @@ use stiffarm_kernels::generic::Arm;
 
 use crate::io::{Columns, number, quoted};
 use crate::measurement::{
-    FROM_NAMES, Kind, Measurements, NORMAL_NAMES, PIXEL_NAMES, Row, SIGMA_PREFIX, SIM_PREFIX,
-    TILT_NAMES, WRENCH_NAMES,
+    BOARD_NAMES, FROM_NAMES, Kind, Measurements, NORMAL_NAMES, PIXEL_NAMES, Row, SIGMA_PREFIX,
+    SIM_PREFIX, Sight, TILT_NAMES, WRENCH_NAMES,
 };
 use crate::observe::{Aim, Seen, View};
 
@@ -44,7 +44,8 @@ pub fn csv(arm: &Arm, data: &Measurements, comments: &[String]) -> String {
             columns.add(format!("s{}", j + 1), side);
         }
     }
-    if all(|r| r.marker.is_some()) || data.by_board {
+    let has_corners = data.by_board && data.rows.iter().any(|r| r.marker.is_some());
+    if all(|r| r.marker.is_some()) || has_corners {
         columns.add("marker", |r| quoted(r.marker.as_deref()));
     }
     for (k, name) in WRENCH_NAMES.iter().enumerate() {
@@ -59,7 +60,7 @@ pub fn csv(arm: &Arm, data: &Measurements, comments: &[String]) -> String {
     if is_bench || data.kind == Kind::Distance {
         bench(&mut columns, data);
     }
-    let names = data.kind.names();
+    let names = if data.by_camera && !is_bench { BOARD_NAMES } else { data.kind.names() };
     let measured = data.kind.components();
     for k in (0..6).filter(|k| measured[*k] && !is_bench) {
         let unit = if k < 3 { "m" } else { "rad" };
@@ -143,10 +144,10 @@ fn bench(columns: &mut Columns<'_, &Row>, data: &Measurements) {
         }
     }
     if any(&|aim| aim.seen == Seen::Camera) {
-        for (k, head) in ["camera", "board"].into_iter().enumerate() {
-            columns.add(head, move |r| {
-                r.camera.as_ref().map_or_else(String::new, |names| quoted(Some(&names[k])))
-            });
+        let names: [(&str, fn(&Sight) -> &str); 2] =
+            [("camera", |s| &s.camera), ("board", |s| &s.board)];
+        for (head, name) in names {
+            columns.add(head, move |r| quoted(r.camera.as_deref().map(name)));
         }
     }
     if any(&|aim| aim.seen == Seen::Direction) {

@@ -230,7 +230,9 @@ impl Reality {
     }
 
     fn seen(&self, standing: &Matrix4<f64>, tool: &Matrix4<f64>, row: &Row) -> Shown {
-        let frame = standing * tool;
+        let sits =
+            row.camera.as_ref().map_or_else(Matrix4::identity, |sight| sight.at.to_homogeneous());
+        let frame = standing * tool * sits;
         // A marker whose place is not known sits where the tool frame does.
         let offset = Vector3::from(row.offset.unwrap_or([0.0; 3]));
         Shown {

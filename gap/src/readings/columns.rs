@@ -38,8 +38,9 @@ pub(super) struct Columns {
 }
 
 /// The names of a measurement file and of orientations, for messages.
-const OURS: &str = "q1 …, s1 …, x y z, rx ry rz, dx … drz, distance, from, from_x …, sim_x …, sigma, \
-                    sigma_x …, fx … mz, temperature, date, time, pose, marker, session, payload, mass, or one \
+const OURS: &str = "q1 …, s1 …, x y z, rx ry rz, dx … drz, distance, from, from_x …, point, plane, along, nx ny nz, \
+                    zero, tilt_x tilt_y, u v, cx … crz, cqw …, camera, board, sim_x …, sigma, sigma_x …, fx … mz, \
+                    temperature, date, time, pose, marker, session, payload, mass, or one \
                     number of an orientation: a b c, roll pitch yaw, qw qx qy qz, r11 … r33";
 
 impl Columns {
@@ -84,6 +85,13 @@ impl Columns {
             }
         }
         columns.find_points();
+        // A socket without a distance is no wire's end: the ball sits in it.
+        let has = |name: &str| columns.ours.iter().any(|(ours, _)| ours == name);
+        if !has("distance") && !has("point") && !map.set.contains_key("point") {
+            let is_socket = |c: &Column| names::split(&c.header).0.eq_ignore_ascii_case("socket");
+            let socket = columns.ours.iter_mut().find(|(ours, c)| ours == "from" && is_socket(c));
+            socket.into_iter().for_each(|(ours, _)| "point".clone_into(ours));
+        }
         // A day alone has its time with it.
         if let Some(date) = columns.date.take_if(|_| !columns.ours.iter().any(|(n, _)| n == "time"))
         {

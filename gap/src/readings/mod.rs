@@ -11,7 +11,8 @@
 //! 4. `columns`: which column is what, in which unit.
 //! 5. `turn`: orientations into rotation vectors.
 //! 6. `join`: the columns of a second table beside those of the first.
-//! 7. `write`: the rows as our columns, times of day (`clock`) as seconds.
+//! 7. `rests`: of a joint log the postures that were held.
+//! 8. `write`: the rows as our columns, times of day (`clock`) as seconds.
 //!
 //! Only units that no number of the column could have are doubted (a joint at 175 is in degrees, a
 //! tool at 1,200 in millimetres), and then it is said.
@@ -21,6 +22,7 @@ mod columns;
 mod file;
 mod join;
 mod names;
+mod rests;
 mod sheet;
 #[cfg(test)]
 mod tests;
@@ -31,6 +33,7 @@ mod write;
 
 pub use file::Sheet;
 pub use join::By;
+pub use rests::rests;
 
 use std::io::{self, Write};
 

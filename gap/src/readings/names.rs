@@ -1,7 +1,7 @@
 //! What a column is by its name, and the unit that stands in it.
 
 use crate::io::{Convention, Unit};
-use crate::measurement::{DISPLACEMENT_NAMES, Layout, POSE_NAMES, Role, WRENCH_NAMES};
+use crate::measurement::{BOARD_NAMES, DISPLACEMENT_NAMES, Layout, POSE_NAMES, Role, WRENCH_NAMES};
 use crate::observe::Bench;
 
 /// What a column is.
@@ -199,6 +199,15 @@ pub(super) fn meaning(name: &str) -> Option<Meaning> {
     let around = |axis: &str, word: &str| {
         AROUND.iter().any(|(before, after)| folded == format!("{before}{word}{axis}{after}"))
     };
+    // OpenCV's vectors of a board in a camera's axes, by axes or by numbers from 0.
+    for (word, first) in [("tvec", 0), ("rvec", 3)] {
+        let axis = folded.strip_prefix(word).and_then(|axis| {
+            ["x", "y", "z"].iter().position(|a| *a == axis).or(axis.parse().ok().filter(|n| *n < 3))
+        });
+        if let Some(axis) = axis {
+            return ours(BOARD_NAMES[first + axis]);
+        }
+    }
     let words = [["", "r", "rot"], ["f", "force", "kraft"], ["t", "torque", "moment"]];
     for (letter, axis) in ["x", "y", "z"].into_iter().enumerate() {
         let [poses, forces, moments] = words;

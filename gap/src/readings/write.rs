@@ -14,7 +14,7 @@ use super::turn::Turn;
 use super::{Stopped, counted, names};
 use crate::io::cell::is_none;
 use crate::io::{Convention, Dimension, Fault, Mistake, Mistakes, ReadError, Unit, did_you_mean};
-use crate::measurement::{MOST_RADIANS, POSE_NAMES, WRENCH_NAMES, nearest_name};
+use crate::measurement::{MOST_RADIANS, POSE_NAMES, Role, WRENCH_NAMES, nearest_name};
 
 /// Weight of a kilogram where the map says nothing, base axes, m/s².
 const GRAVITY: [f64; 3] = [0.0, 0.0, -9.806_65];
@@ -213,8 +213,31 @@ fn outputs<'a>(
         let cell: Cell<'_> = Box::new(|row, _| Ok(table.text(row, column.index).into_owned()));
         outputs.push(Output { header, cell });
     }
+    for (header, cell) in &map.set {
+        let cell = set(table, columns, header, &cell.0).map_err(|fault| fault.of(table.file))?;
+        said.push(format!("{header} is `{cell}` in every row"));
+        let cell = move |_: &Row<'_>, _: usize| Ok(cell.clone());
+        outputs.push(Output { header: header.clone(), cell: Box::new(cell) });
+    }
     said.extend((!map.ignore.is_empty()).then(|| format!("{} not kept", map.ignore.join(", "))));
     Ok((outputs, said))
+}
+
+/// What stands in every row of a column that is set.
+fn set(table: &Table<'_>, columns: &Columns, header: &str, cell: &str) -> Result<String, Fault> {
+    let name = names::split(header).0;
+    let is_ours = Role::of(name, &names::ANY).is_ok_and(|role| role != Role::Extra);
+    if !is_ours && !name.strip_prefix('q').is_some_and(|n| n.parse::<usize>().is_ok()) {
+        let meant = did_you_mean(nearest_name(name, &names::ANY).as_deref());
+        let found = format!("`{header}` that is set");
+        return Err(Fault::new(found, format!("a column of a measurement file{meant}"), ""));
+    }
+    if columns.ours.iter().any(|(ours, _)| ours == name) {
+        let found = format!("`{header}` that is set, and is in the table");
+        return Err(Fault::new(found, "one of them", "`ignore` the table's in a map"));
+    }
+    let stem = std::path::Path::new(table.file).file_stem().unwrap_or_default();
+    Ok(cell.replace("{file}", &stem.to_string_lossy()))
 }
 
 /// The cell of a time: of a number as it stands, of a time of day in seconds, with its `date` if that stands

@@ -191,7 +191,7 @@ pub struct NuisanceReport {
     /// `base_frame`, `tool_frame`, a marker's name, or that of a point from which distances are
     /// measured (`centre` without one).
     pub name: String,
-    /// The session whose base or point it is, where there are several.
+    /// The session whose base or point it is, or the camera or board, where there are several.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub session: Option<String>,
     /// Where it is: the base and a distance's point in the measuring frame, the tool in the last frame,

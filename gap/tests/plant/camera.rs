@@ -1,7 +1,7 @@
 //! Cameras, inclinometers and gauges of unknown zero against the plant's own formulas.
 
 use nalgebra::{Isometry3, Matrix4, Point3, Vector3};
-use stiffarm_gap::measurement::{Kind, Row};
+use stiffarm_gap::measurement::{Kind, Row, Sight};
 use stiffarm_gap::observe::{Aim, Bench, Lens, Seen, View};
 use stiffarm_gap::plant::design::{Design, Shape};
 use stiffarm_gap::plant::{Frames, Noise, csv};
@@ -69,7 +69,11 @@ fn shown(
             rows.push(Row {
                 marker: Some(name.clone()),
                 offset: Some(offset),
-                camera: Some(Box::new(["left".to_owned(), "plate".to_owned()])),
+                camera: Some(Box::new(Sight {
+                    camera: "left".to_owned(),
+                    board: "plate".to_owned(),
+                    ..Sight::default()
+                })),
                 aim: Some(Box::new(Aim::known(Seen::Camera, "left", view))),
                 ..row.clone()
             });
@@ -125,18 +129,20 @@ fn a_camera_beside_the_arm_shows_a_soft_joint() {
     let tool = found.nuisances.iter().find(|frame| frame.name == "tool_frame").expect("a frame");
     let off = Vector3::from(tool.translation) - (arm.tool * board).translation.vector;
     assert!(off.norm() < 1e-3, "{off}");
-    // A lens that is known roughly is found with everything else.
+    // A lens that is known roughly, or not at all, is found with everything else.
     let rough = [1150.0, 1150.0, 660.0, 340.0];
     let rough = lens(rough, &[0.0; 4], "fit = [\"matrix\", \"distortion\"]");
-    let found =
-        diagnose(&arm, &read(&arm, &data, &bench("base", &rough, &corners)), &Options::default());
-    let found = found.expect("a diagnosis");
-    is_found(&found);
-    let [camera] = &found.bench[..] else { panic!("{:?}", found.bench) };
-    for (constant, was) in camera.constants.iter().zip(MATRIX.iter().chain(&DISTORTION)) {
-        let [low, high] = constant.ci95;
-        // Twice as wide: of eight intervals of 95 % one may be missed by chance.
-        assert!((constant.value - was).abs() < high - low, "{constant:?} {was}");
+    for told in [&*rough, "fit = [\"distortion\"]"] {
+        let data = read(&arm, &data, &bench("base", told, &corners));
+        let found = diagnose(&arm, &data, &Options::default()).expect("a diagnosis");
+        is_found(&found);
+        let [camera] = &found.bench[..] else { panic!("{:?}", found.bench) };
+        assert!(camera.constants.len() >= MATRIX.len() + 4, "{camera:?}");
+        for (constant, was) in camera.constants.iter().zip(MATRIX.iter().chain(&DISTORTION)) {
+            let [low, high] = constant.ci95;
+            // Twice as wide: of eight intervals of 95 % one may be missed by chance.
+            assert!((constant.value - was).abs() < high - low, "{constant:?} {was}");
+        }
     }
 }
 
@@ -173,6 +179,80 @@ fn a_camera_on_the_tool_gives_both_frames() {
             assert!(off.amax() < 1e-9, "{off}");
         }
     }
+}
+
+/// Two boards in one file, whose corners have the same names: rows of both at each posture.
+fn both(plate: &Measurements, other: &Measurements) -> Measurements {
+    let named = other.rows.iter().cloned().map(|mut row| {
+        row.camera.iter_mut().for_each(|sight| sight.board = "other".to_owned());
+        row
+    });
+    let mut rows: Vec<Row> = plate.rows.iter().cloned().chain(named).collect();
+    rows.sort_by_key(|row| row.line);
+    Measurements { by_camera: true, by_board: true, ..Measurements::new("both", plate.kind, rows) }
+}
+
+#[track_caller]
+fn are_frames(found: &Diagnosis, was: &[(&str, Option<&str>, Isometry3<f64>)]) {
+    assert_eq!(found.nuisances.len(), was.len(), "{:?}", found.nuisances);
+    for (is, (name, of, was)) in found.nuisances.iter().zip(was) {
+        assert_eq!((&*is.name, is.session.as_deref()), (*name, *of));
+        let is = Isometry3::new(is.translation.into(), is.rotation.into());
+        let off = (is.inverse() * was).to_homogeneous() - Matrix4::identity();
+        assert!(off.amax() < 1e-9, "{name} {of:?} {off}");
+    }
+}
+
+/// Two boards on the tool before one camera, and a camera on the tool before two boards: of each a frame of its own.
+#[test]
+fn every_board_has_a_frame_of_its_own() {
+    let (arm, corners) = (spatial(Convention::Standard), corners(true));
+    let two = |on: &str| {
+        let one = bench(on, &lens(MATRIX, &DISTORTION, ""), &corners);
+        let (_, board) = one.split_once("[[board]]").expect("a board");
+        format!("{one}[[board]]{}", board.replace("plate", "other"))
+    };
+    let apart = Isometry3::new(Vector3::new(0.2, -0.1, 0.15), Vector3::new(0.4, -0.5, 0.9));
+    let known = |on: &str, design: &Measurements, frames: &Frames| {
+        let plant = plant(&arm, &[]).with_frames(frames.clone());
+        let data = plant.measure(design, EXACT, 0).expect("rows");
+        let data = read(&arm, &data, &two(on));
+        diagnose(&arm, &data, &Options::default()).expect("a diagnosis")
+    };
+
+    let frames = beside();
+    let board = Isometry3::new(Vector3::new(0.15, -0.12, 0.1), Vector3::new(0.2, -0.3, 0.5));
+    let seen = shown(&arm, Shape::Payload, &frames, false, &corners);
+    let design = both(&mounted(&seen, &board), &mounted(&seen, &apart));
+    let found = known("base", &design, &frames);
+    let base = ("base_frame", None, frames.base * arm.base);
+    let tool = |of, board| ("tool_frame", Some(of), arm.tool * board);
+    are_frames(&found, &[base, tool("plate", board), tool("other", apart)]);
+
+    let hand = Isometry3::new(Vector3::new(0.05, -0.02, 0.1), Vector3::new(0.2, -0.3, 0.5));
+    let narrow = |poses| Design {
+        shape: Shape::Narrow,
+        poses,
+        repeats: 1,
+        payload: 0.0,
+        kind: Kind::Pose { orientation: true },
+        seed: 2,
+    };
+    let camera = arm.pose(&narrow(1).rows(&arm).rows[0].q) * hand;
+    let board =
+        camera * Isometry3::new(Vector3::new(-0.1, -0.05, 0.9), Vector3::new(0.2, 0.3, 1.0));
+    let frames = Frames { base: board.inverse(), tool: hand };
+    let there: Vec<_> = (corners.iter())
+        .map(|(name, at)| (name.clone(), (apart * Point3::from(*at)).coords))
+        .collect();
+    let [plate, other] = [&corners, &there].map(|c| shown(&arm, Shape::Narrow, &frames, true, c));
+    let found = known("tool", &both(&plate, &other), &frames);
+    let base = |of, at: Isometry3<f64>| ("base_frame", Some(of), at * frames.base * arm.base);
+    let tool = ("tool_frame", None, arm.tool * hand);
+    are_frames(
+        &found,
+        &[base("plate", Isometry3::identity()), base("other", apart.inverse()), tool],
+    );
 }
 
 /// A level on the flange and a gauge along a direction, with zeros that nobody knows.

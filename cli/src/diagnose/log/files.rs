@@ -5,7 +5,7 @@ use std::io::{self, BufRead, BufReader};
 use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
-use stiffarm_gap::log::{Log, Names, Opened};
+use stiffarm_gap::log::{Format, Log, Names, Opened};
 use stiffarm_gap::measurement::{Layout, Measurements};
 use stiffarm_kernels::Motion;
 
@@ -35,6 +35,11 @@ impl Part {
             false => Opened::from(host.read(&path)?),
         };
         Ok(Part { opened, path })
+    }
+
+    /// Whether it is a table of Parquet, or holds messages.
+    pub fn is_no_text(&self) -> bool {
+        Format::of(self.opened.head()) != Format::Text
     }
 
     /// The measurements in it; its bytes go into `hash`. A file on disk is gone through and not held.

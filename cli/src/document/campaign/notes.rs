@@ -73,13 +73,25 @@ impl Campaign<'_> {
             |thing: &&BenchReport| ["point", "centre", "plane"].contains(&thing.kind.as_str());
         let thing = |thing: &BenchReport| {
             let each = thing.constants.iter().map(|constant| {
-                let (name, value) = (&constant.name, constant.value);
-                match constant.unit.as_ref() {
-                    "m" => format!("{name} {} mm", short(1e3 * value)),
-                    "rad" => format!("{name} {} mrad", short(1e3 * value)),
-                    "1" => format!("{name} {}", short(value)),
-                    unit => format!("{name} {} {unit}", short(value)),
+                let (scale, unit) = match constant.unit.as_ref() {
+                    "m" => (1e3, " mm"),
+                    "rad" => (1e3, " mrad"),
+                    "px" => (1.0, " px"),
+                    _ => (1.0, ""),
+                };
+                let [low, high] = constant.ci95.map(|end| scale * end);
+                let (half, value) = ((high - low) / 2.0, scale * constant.value);
+                if !half.is_finite() {
+                    return format!("{} not determined", constant.name);
                 }
+                // As many digits as the interval has.
+                let places = (1.0 - half.abs().log10().floor()).clamp(0.0, 6.0) as usize;
+                format!(
+                    "{} {} ± {}{unit}",
+                    constant.name,
+                    fixed(value, places),
+                    fixed(half, places)
+                )
             });
             let each: Vec<String> = each.collect();
             format!("{}: {}", format!("{} {}", thing.kind, thing.name).trim_end(), each.join(", "))

@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, Matrix6xX, Vector6};
 use stiffarm_kernels::generic::Arm;
 use stiffarm_kernels::{Output, Unstable};
 
-use super::{Plan, bench};
+use super::{Plan, Station, bench};
 use crate::dexterity::{
     DexterityError, Search, block, characteristic_length, influence, inverse_condition,
 };
@@ -102,7 +102,7 @@ fn at_bench(
         let wanted = count.div_ceil(things);
         let tried = (0..TRIES * wanted).filter_map(|_| {
             let mut q = rng.point(bounds);
-            bench::reaches(arm, &plan.bench, &plan.bench[thing], &mut q, bounds)
+            bench::reaches(arm, &plan.plates, &plan.bench[thing], &mut q, bounds)
                 .then_some((q, Some(thing)))
         });
         let before = all.len();
@@ -208,8 +208,7 @@ fn bench_rows(
     [springs, zeros]: [Matrix6xX<f64>; 2],
 ) -> DMatrix<f64> {
     let (n, at) = (arm.dof(), arm.pose(&posture.q));
-    let aim = &plan.bench[thing];
-    let (by_frame, constants) = (bench::rows(aim, &at), bench::constants(aim, &at));
+    let (by_frame, constants) = plan.bench[thing].rows(&at);
     let (springs, zeros) = (&by_frame * springs, &by_frame * zeros);
     let read = by_frame.nrows();
     let own = plan.constants(thing);
@@ -222,5 +221,8 @@ fn bench_rows(
         rows.view_mut((first, n), (read, n)).copy_from(&zeros);
         rows.view_mut((first, 2 * n + own.start), (read, own.len())).copy_from(&constants);
     }
-    rows / plan.noise_position
+    rows / match plan.bench[thing] {
+        Station::Thing(_) => plan.noise_position,
+        Station::Board(_) => plan.noise_rotation.unwrap_or(plan.noise_position),
+    }
 }

@@ -57,11 +57,21 @@ pub struct Plan {
     /// Standard deviation of a component of a measured rotation, rad; none if rotations are not
     /// measured.
     pub noise_rotation: Option<f64>,
-    /// Things of a bench that are read in place of a position, each where it is roughly; none without a bench. Their
-    /// constants are co-estimated.
-    pub bench: Vec<observe::Aim>,
+    /// What is read of a bench in place of a position; none without a bench. Its constants are co-estimated.
+    pub bench: Vec<Station>,
+    /// Plates below which no joint of the arm is.
+    pub plates: Vec<observe::Plane>,
     /// Of the postures drawn.
     pub seed: u64,
+}
+
+/// What is read of a bench, where it is roughly.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Station {
+    /// A point or a plane.
+    Thing(observe::Aim),
+    /// A board before a camera.
+    Board(observe::Look),
 }
 
 /// One test.
@@ -204,9 +214,8 @@ fn tests(plan: &Plan, pool: &Pool, blocks: &[Block], chosen: &[usize]) -> Vec<Pl
 impl Plan {
     /// Among the constants of all things of the bench those of one; of one beyond them, where they end.
     fn constants(&self, thing: usize) -> core::ops::Range<usize> {
-        let count = |aim: &observe::Aim| aim.view.constants();
-        let first = self.bench[..thing].iter().map(count).sum();
-        first..first + self.bench.get(thing).map_or(0, count)
+        let first = self.bench[..thing].iter().map(Station::constants).sum();
+        first..first + self.bench.get(thing).map_or(0, Station::constants)
     }
 
     /// Standard deviation of each number of a reading.

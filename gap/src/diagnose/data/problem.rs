@@ -13,7 +13,7 @@ use crate::diagnose::prior::Prior;
 use crate::diagnose::progress::Stop;
 use crate::effects::{Effect, Known};
 use crate::gap::Statistics;
-use crate::measurement::{Kind, Measurements, Row};
+use crate::measurement::{Kind, Measurements, Row, Stands, number_of};
 use crate::observe::{Aim, Pair, Seen};
 use crate::simulate::{Actual, Moments, Reading, Sim};
 use crate::spring::Spring;
@@ -60,10 +60,10 @@ pub(crate) struct Problem<'a> {
     pub(crate) markers: Vec<String>,
     /// Which of them a row has.
     pub(crate) marker_of: Vec<Option<usize>>,
+    /// The frames that rows are told of.
+    pub(crate) stands: Stands,
     /// Names of the sessions, at least one; empty where the file has no column.
     pub(crate) sessions: Vec<String>,
-    /// Which of them a row is of.
-    pub(crate) session_of: Vec<usize>,
     /// The things of the bench that are unknown.
     pub(crate) bench: Vec<Thing>,
     /// Which of them a row reads.
@@ -192,8 +192,8 @@ impl<'a> Problem<'a> {
             tolerance: options.tolerance.unwrap_or(TOLERANCE),
             markers,
             marker_of,
+            stands: Stands::of(data),
             sessions,
-            session_of,
             bench,
             bench_of,
             pairs,
@@ -276,14 +276,31 @@ impl<'a> Problem<'a> {
         self.nuisances.contains(&frame)
     }
 
-    /// The unknown frames, and the session that each is of: every session has a base of its own, and
-    /// all have one tool.
+    /// The unknown frames, and the number of each among its like: every session has a base of its own, and all have
+    /// one tool; of cameras and boards each has a base or a place on the tool.
     pub(crate) fn frames(&self) -> impl Iterator<Item = (Nuisance, usize)> + '_ {
-        let sessions = |frame: Nuisance| match frame {
-            Nuisance::BaseFrame => self.sessions.len(),
-            Nuisance::ToolFrame => 1,
+        let count = |frame: Nuisance| match frame {
+            Nuisance::BaseFrame => self.stands.bases.len(),
+            Nuisance::ToolFrame => self.stands.mounts.len().max(1),
         };
-        self.nuisances.iter().flat_map(move |&frame| (0..sessions(frame)).map(move |s| (frame, s)))
+        self.nuisances.iter().flat_map(move |&frame| (0..count(frame)).map(move |k| (frame, k)))
+    }
+
+    /// Whether a row is told of a frame; one that has no place on the tool of its own, of the first.
+    pub(crate) fn is_told_of(&self, row: usize, (frame, number): (Nuisance, usize)) -> bool {
+        number
+            == match frame {
+                Nuisance::BaseFrame => self.stands.base_of[row],
+                Nuisance::ToolFrame => self.stands.mount_of[row].unwrap_or(0),
+            }
+    }
+
+    /// Of what a frame is, where there are several.
+    pub(crate) fn frame_of(&self, (frame, number): (Nuisance, usize)) -> Option<String> {
+        match frame {
+            Nuisance::BaseFrame => self.stands.base(number),
+            Nuisance::ToolFrame => self.stands.mount(number),
+        }
     }
 
     /// The reading of a row with the user's own simulator in place of the arm's: what the arm's
@@ -350,12 +367,4 @@ fn pairs(data: &Measurements, bench: &[Thing], session_of: &[usize]) -> Vec<(Pai
         }
     }
     all
-}
-
-/// The number of an entry, which is put in if it is new.
-fn number_of<T: PartialEq>(all: &mut Vec<T>, one: T) -> usize {
-    all.iter().position(|known| *known == one).unwrap_or_else(|| {
-        all.push(one);
-        all.len() - 1
-    })
 }

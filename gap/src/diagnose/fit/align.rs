@@ -1,8 +1,6 @@
 //! First guess of unknown frames, good enough for the exact fit to converge from: a tracker may
 //! stand anywhere.
 
-use std::collections::BTreeMap;
-
 use nalgebra::{
     DMatrix, DVector, Isometry3, Matrix3, Rotation3, UnitQuaternion, Vector2, Vector3, Vector6,
 };
@@ -24,7 +22,7 @@ const SETTLED: f64 = 1e-12;
 
 /// The nominal model with unknown frames where the measurements put them to a first guess.
 ///
-/// The base of each session by the rigid motion that brings the simulated points closest to the
+/// Each base by the rigid motion that brings the simulated points closest to the
 /// measured ones (Kabsch), or to the lines of sight of a camera; a thing of the bench by what was read of the simulated
 /// points, the tool's orientation by the mean of what is then left of the rotations.
 pub(crate) fn aligned(problem: &Problem<'_>) -> Result<Model, DiagnoseError> {
@@ -58,31 +56,39 @@ pub(crate) fn aligned(problem: &Problem<'_>) -> Result<Model, DiagnoseError> {
         _ => return Ok(model),
     };
     let orientation = !matches!(problem.data.kind, Kind::Pose { orientation: false });
-    let mut moved = vec![Isometry3::identity(); problem.sessions.len()];
+    let mut moved = vec![Isometry3::identity(); model.bases.len()];
     if base {
-        for (session, moved) in moved.iter_mut().enumerate() {
-            let of = rows.clone().filter(|row| problem.session_of[*row] == session);
+        for (number, moved) in moved.iter_mut().enumerate() {
+            let of = rows.clone().filter(|row| problem.stands.base_of[*row] == number);
             let both = of.filter_map(|row| Some((readings[row], measured[row]?)));
             let (from, to): (Vec<_>, Vec<_>) =
                 both.map(|(a, b)| (a.translation.vector, b.translation.vector)).unzip();
             let found = if from.is_empty() {
-                resected(problem, session, &seen)
+                resected(problem, number, &seen)
             } else {
                 Some(rigid(&from, &to))
             };
             *moved = found.unwrap_or_default();
-            model.bases[session] = *moved * model.bases[session];
+            model.bases[number] = *moved * model.bases[number];
         }
     }
     if tool && orientation {
-        let left = rows.filter_map(|row| {
-            let turn = moved[problem.session_of[row]].rotation;
-            let left = (turn * readings[row].rotation).inverse() * measured[row]?.rotation;
-            Some(*left.to_rotation_matrix().matrix())
-        });
-        let mean = nearest_rotation(&left.sum());
-        let tool = if problem.data.by_board { &mut model.mount } else { &mut model.arm.tool };
-        tool.rotation *= mean;
+        let mut left = vec![Matrix3::zeros(); model.mounts.len().max(1)];
+        for row in rows {
+            // What has no place of its own on the tool says nothing of where the others are.
+            let number = problem.stands.mount_of[row];
+            let number = if model.mounts.is_empty() { Some(0) } else { number };
+            let (Some(measured), Some(number)) = (measured[row], number) else { continue };
+            let turn = moved[problem.stands.base_of[row]].rotation * readings[row].rotation;
+            let off = turn.inverse() * measured.rotation;
+            left[number] += off.to_rotation_matrix().matrix();
+        }
+        let tools = match model.mounts.is_empty() {
+            true => core::slice::from_mut(&mut model.arm.tool),
+            false => &mut model.mounts[..],
+        };
+        let each = tools.iter_mut().zip(&left);
+        each.for_each(|(tool, left)| tool.rotation *= nearest_rotation(left));
     }
     Ok(model)
 }
@@ -92,16 +98,15 @@ fn frame_of(vector: &Vector6<f64>) -> Isometry3<f64> {
     Isometry3::from_parts(position.into(), rotation)
 }
 
-/// The tool's pose by what a camera shows of a board at each posture, at its first row: the board in the camera's axes,
-/// or the camera in the board's.
+/// The tool's pose by each picture of a board, at its first row: the board in the camera's axes, or the camera in the
+/// board's.
 fn boards(problem: &Problem<'_>) -> Vec<Option<Isometry3<f64>>> {
-    let mut postures: BTreeMap<(usize, usize), Vec<usize>> = BTreeMap::new();
-    for (number, row) in problem.data.rows.iter().enumerate().filter(|(k, _)| problem.fits[*k]) {
-        postures.entry((problem.session_of[number], row.group)).or_default().push(number);
-    }
     let mut poses = vec![None; problem.data.rows.len()];
-    for rows in postures.values().filter(|_| problem.data.by_board) {
-        let shown = rows.iter().filter_map(|row| {
+    if !problem.data.by_board {
+        return poses;
+    }
+    for rows in problem.data.pictures() {
+        let shown = rows.iter().filter(|row| problem.fits[**row]).filter_map(|row| {
             let row = &problem.data.rows[*row];
             let (target, direction) = direction(row)?;
             Some((target.or_else(|| row.offset.map(Vector3::from))?, direction, target.is_some()))
@@ -119,11 +124,11 @@ fn boards(problem: &Problem<'_>) -> Vec<Option<Isometry3<f64>>> {
 /// Where a camera's axes have the measuring frame, by all points that it shows where the arm is thought to have them.
 fn resected(
     problem: &Problem<'_>,
-    session: usize,
+    base: usize,
     seen: &[[Isometry3<f64>; 2]],
 ) -> Option<Isometry3<f64>> {
     let of =
-        (0..seen.len()).filter(|row| problem.session_of[*row] == session && problem.fits[*row]);
+        (0..seen.len()).filter(|row| problem.stands.base_of[*row] == base && problem.fits[*row]);
     let points = of.filter_map(|row| {
         let (target, direction) = direction(&problem.data.rows[row])?;
         target.is_none().then_some((seen[row][1].translation.vector, direction))

@@ -47,10 +47,9 @@ pub(crate) struct Model {
     /// The arm of the robot file, its tool where the fit has put it: what is measured, and where
     /// loads act.
     pub(crate) arm: Arm,
-    /// Where the board or the camera that is on the tool sits in the tool frame, at which loads act all the same; the
-    /// tool frame itself where neither is.
-    pub(crate) mount: Isometry3<f64>,
-    /// Where the base stands in the measuring frame of each session.
+    /// Where each board or camera that is on the tool sits in the tool frame, at which loads act all the same.
+    pub(crate) mounts: Vec<Isometry3<f64>>,
+    /// Where the base stands in each measuring frame.
     pub(crate) bases: Vec<Isometry3<f64>>,
     /// Whose axes loads and gravity are told in.
     pub(crate) axes: Axes,
@@ -85,8 +84,8 @@ impl Model {
         });
         Self {
             arm: problem.arm.clone(),
-            mount: Isometry3::identity(),
-            bases: vec![problem.arm.base; problem.sessions.len()],
+            mounts: vec![Isometry3::identity(); problem.stands.mounts.len()],
+            bases: vec![problem.arm.base; problem.stands.bases.len()],
             axes: Axes::Arm,
             markers: vec![Vector3::zeros(); problem.markers.len()],
             bench: problem.bench.iter().map(|thing| thing.aim.view).collect(),
@@ -104,7 +103,7 @@ impl Model {
         let (data, when) = (&problem.data.rows[row], &problem.moments.at(row));
         let wrench = if loaded { data.wrench } else { Vector6::zeros() };
         let mut actual = Actual::new(&self.arm, &data.q, &wrench);
-        actual.base = self.bases[problem.session_of[row]];
+        actual.base = self.bases[problem.stands.base_of[row]];
         self.axes.tell(&mut actual);
         problem.known.iter().for_each(|known| known.alter(&mut actual, data, when));
         for found in &self.found {
@@ -119,7 +118,8 @@ impl Model {
             Some(marker) => self.markers[marker],
             None => problem.data.rows[row].offset.unwrap_or_default().into(),
         };
-        self.mount * Isometry3::translation(offset.x, offset.y, offset.z)
+        let offset = Isometry3::translation(offset.x, offset.y, offset.z);
+        problem.stands.mount_of[row].map_or(offset, |mount| self.mounts[mount] * offset)
     }
 
     /// Brings one row to rest; `near` is where to begin.
@@ -271,12 +271,13 @@ impl Model {
             column += part.ncols();
         };
         let units: [Vector6<f64>; 6] = std::array::from_fn(|k| Vector6::ith(k, 1.0));
-        for (frame, session) in problem.frames() {
-            put(&match frame {
-                Nuisance::BaseFrame if problem.session_of[row] != session => Matrix6xX::zeros(6),
-                Nuisance::BaseFrame => s.state.base_moved(),
-                Nuisance::ToolFrame if problem.data.by_board => self.mount_moved(s.state),
-                Nuisance::ToolFrame => s.carried(Site::Tool, &units),
+        for (frame, number) in problem.frames() {
+            put(&match (frame, problem.stands.mount_of[row]) {
+                _ if !problem.is_told_of(row, (frame, number)) => Matrix6xX::zeros(6),
+                (Nuisance::BaseFrame, _) => s.state.base_moved(),
+                (Nuisance::ToolFrame, Some(mount)) => mount_moved(&self.mounts[mount], s.state),
+                (Nuisance::ToolFrame, None) if !self.mounts.is_empty() => Matrix6xX::zeros(6),
+                (Nuisance::ToolFrame, None) => s.carried(Site::Tool, &units),
             });
         }
         for marker in 0..problem.markers.len() {
@@ -312,23 +313,9 @@ impl Model {
         block
     }
 
-    /// Where what is on the tool sits, as reports have it: in the last frame.
-    pub(crate) fn tool(&self) -> Isometry3<f64> {
-        self.arm.tool * self.mount
-    }
-
-    /// Twists of the tool that move what is on it as displacements in its own axes do.
-    fn mount_moved(&self, state: &State) -> Matrix6xX<f64> {
-        let turn = state.tool.rotation * self.mount.rotation;
-        let arm = state.tool.rotation * self.mount.translation.vector;
-        let mut twists = Matrix6xX::zeros(6);
-        for k in 0..3 {
-            let axis = turn * Vector3::ith(k, 1.0);
-            twists.fixed_view_mut::<3, 1>(0, k).copy_from(&axis);
-            twists.fixed_view_mut::<3, 1>(0, 3 + k).copy_from(&arm.cross(&axis));
-            twists.fixed_view_mut::<3, 1>(3, 3 + k).copy_from(&axis);
-        }
-        twists
+    /// Where the tool is, or what is on it, as reports have it: in the last frame.
+    pub(crate) fn tool(&self, number: usize) -> Isometry3<f64> {
+        self.mounts.get(number).map_or(self.arm.tool, |mount| self.arm.tool * mount)
     }
 
     /// Inverse of the standard deviation to which each parameter is held; 0 where any value is as
@@ -367,12 +354,14 @@ impl Model {
         let mut model = self.clone();
         let (nuisances, effects) = step.split_at(Self::nuisances(problem));
         let (frames, points) = nuisances.split_at(6 * problem.frames().count());
-        for ((frame, session), step) in problem.frames().zip(frames.chunks_exact(6)) {
+        for ((frame, number), step) in problem.frames().zip(frames.chunks_exact(6)) {
             let by = Displacement::new(&Vector6::from_column_slice(step)).transform();
             match frame {
-                Nuisance::BaseFrame => model.bases[session] *= by,
-                Nuisance::ToolFrame if problem.data.by_board => model.mount *= by,
-                Nuisance::ToolFrame => model.arm.tool *= by,
+                Nuisance::BaseFrame => model.bases[number] *= by,
+                Nuisance::ToolFrame => match model.mounts.get_mut(number) {
+                    Some(mount) => *mount *= by,
+                    None => model.arm.tool *= by,
+                },
             }
         }
         let (markers, mut bench) = points.split_at(3 * problem.markers.len());
@@ -392,4 +381,18 @@ impl Model {
         }
         model
     }
+}
+
+/// Twists of the tool that move what is on it as displacements in its own axes do.
+fn mount_moved(mount: &Isometry3<f64>, state: &State) -> Matrix6xX<f64> {
+    let turn = state.tool.rotation * mount.rotation;
+    let arm = state.tool.rotation * mount.translation.vector;
+    let mut twists = Matrix6xX::zeros(6);
+    for k in 0..3 {
+        let axis = turn * Vector3::ith(k, 1.0);
+        twists.fixed_view_mut::<3, 1>(0, k).copy_from(&axis);
+        twists.fixed_view_mut::<3, 1>(0, 3 + k).copy_from(&arm.cross(&axis));
+        twists.fixed_view_mut::<3, 1>(3, 3 + k).copy_from(&axis);
+    }
+    twists
 }

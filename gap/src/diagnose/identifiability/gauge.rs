@@ -40,9 +40,11 @@ impl Search<'_, '_> {
             1 => String::new(),
             _ => format!(" in session {}", sessions[session]),
         };
-        let frame = |(n, session): (Nuisance, usize)| {
-            let of = if n == Nuisance::BaseFrame { of(session) } else { String::new() };
-            six.map(|k| format!("{k} of {}{of}", n.identifier()))
+        let frame = |frame: (Nuisance, usize)| {
+            let what = if frame.0 == Nuisance::BaseFrame { "in session" } else { "of" };
+            let of = self.problem.frame_of(frame);
+            let of = of.map_or_else(String::new, |of| format!(" {what} {of}"));
+            six.map(|k| format!("{k} of {}{of}", frame.0.identifier()))
         };
         let frames = self.problem.frames().flat_map(frame);
         let three = |m: &String| ["x", "y", "z"].map(|k| format!("{k} of marker {m}"));

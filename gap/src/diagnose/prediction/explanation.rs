@@ -10,7 +10,7 @@ use crate::diagnose::fit::{Fitted, Model, fitted_thing};
 use crate::diagnose::options::{DiagnoseError, Nuisance, Options};
 use crate::diagnose::report::Cover;
 use crate::effects::{Catalogue, Depends, Known, file_name};
-use crate::measurement::{Kind, Measurements};
+use crate::measurement::{Base, Kind, Measurements, Stands};
 
 /// What a diagnosis knows of the arm.
 pub struct Explanation {
@@ -23,6 +23,7 @@ pub struct Explanation {
     pub(super) nuisances: Vec<Nuisance>,
     markers: Vec<String>,
     sessions: Vec<String>,
+    stands: Stands,
     bench: Vec<Thing>,
     catalogue: Catalogue,
     pub(super) known: Vec<Known>,
@@ -67,6 +68,7 @@ impl Explanation {
             nuisances: problem.nuisances.clone(),
             markers: problem.markers.clone(),
             sessions: problem.sessions.clone(),
+            stands: problem.stands.clone(),
             bench: problem.bench.clone(),
             covers: covers.clone(),
             catalogue: options.catalogue.clone(),
@@ -111,9 +113,10 @@ impl Explanation {
         &self.arm
     }
 
-    /// The same with its tool where what is measured sits: a board or a camera that is on the tool.
+    /// The same with its tool where what is measured sits: a board or a camera that is on the tool, of several the
+    /// first.
     pub fn placed(&self) -> Arm {
-        Arm { tool: self.after.tool(), ..self.arm.clone() }
+        Arm { tool: self.after.tool(0), ..self.arm.clone() }
     }
 
     /// What is known of other rows.
@@ -139,10 +142,13 @@ impl Explanation {
                 marker: name.clone(),
             })?);
         }
-        let sessions: Vec<Option<usize>> = problem
-            .sessions
-            .iter()
-            .map(|name| self.session(&problem, name))
+        let sessions: Vec<Option<usize>> =
+            problem.sessions.iter().map(|name| self.session(&problem, name)).collect();
+        let bases: Vec<Option<usize>> = (0..problem.stands.bases.len())
+            .map(|number| self.base(&problem, number))
+            .collect::<Result<_, _>>()?;
+        let mounts: Vec<usize> = (problem.stands.mounts.iter())
+            .map(|name| self.mount(&problem, name))
             .collect::<Result<_, _>>()?;
         let known_thing = |Thing { aim, session }: &Thing| {
             let same = |known: &Thing| {
@@ -156,7 +162,8 @@ impl Explanation {
         let carried = |model: &Model| {
             let mut model = model.clone();
             model.markers = places.iter().map(|k| model.markers[*k]).collect();
-            model.bases = sessions.iter().map(|k| model.bases[k.unwrap_or(0)]).collect();
+            model.bases = bases.iter().map(|k| model.bases[k.unwrap_or(0)]).collect();
+            model.mounts = mounts.iter().map(|k| model.mounts[*k]).collect();
             let things = bench.iter().zip(&problem.bench);
             let known =
                 |(k, new): (&Option<usize>, &Thing)| k.map_or(new.aim.view, |k| model.bench[k]);
@@ -191,21 +198,47 @@ impl Explanation {
         Ok(Prediction { before, inside: inside.collect(), after: after.gaps })
     }
 
-    /// Which of the diagnosed sessions a session of other data is measured in; `None` is another one, where
-    /// the base is known.
-    fn session(&self, other: &Problem<'_>, name: &str) -> Result<Option<usize>, DiagnoseError> {
-        let known = self.sessions.iter().position(|known| known == name);
+    /// Which of the diagnosed sessions a session of other data is measured in; `None` is another one.
+    fn session(&self, other: &Problem<'_>, name: &str) -> Option<usize> {
         let is_one = |names: &[String]| matches!(names, [one] if one.is_empty());
         // A file without the column is of the one session that there is.
         let only = self.sessions.len() == 1 && other.sessions.len() == 1;
         let only = only && (is_one(&self.sessions) || is_one(&other.sessions));
-        if known.is_none() && !only && other.is_unknown(Nuisance::BaseFrame) {
-            return Err(DiagnoseError::NewSession {
-                file: other.data.file.clone(),
-                session: name.to_owned(),
-                known: self.sessions.join(", "),
-            });
+        self.sessions.iter().position(|known| known == name).or(only.then_some(0))
+    }
+
+    /// Where the arm stood then; `None` is elsewhere, where the base is known.
+    fn base(&self, other: &Problem<'_>, number: usize) -> Result<Option<usize>, DiagnoseError> {
+        let bases = &self.stands.bases;
+        let Base { session, beside } = &other.stands.bases[number];
+        let found = self.session(other, session).and_then(|session| {
+            let mut own = (0..bases.len()).filter(|k| bases[*k].session == self.sessions[session]);
+            let named = own.clone().find(|k| bases[*k].beside == *beside);
+            // Where there is one thing beside the arm, its name says nothing.
+            named.or_else(|| {
+                own.next().filter(|_| bases.len() == 1 && other.stands.bases.len() == 1)
+            })
+        });
+        if found.is_none() && other.is_unknown(Nuisance::BaseFrame) {
+            return Err(self.new_frame(other, other.stands.base(number).unwrap_or(session.clone())));
         }
-        Ok(known.or(only.then_some(0)))
+        Ok(found)
+    }
+
+    /// Where on the tool it was then.
+    fn mount(&self, other: &Problem<'_>, name: &String) -> Result<usize, DiagnoseError> {
+        let (mounts, others) = (&self.stands.mounts, &other.stands.mounts);
+        let found = mounts.iter().position(|known| known == name);
+        let only = mounts.len() == 1 && others.len() == 1;
+        found.or(only.then_some(0)).ok_or_else(|| self.new_frame(other, name.clone()))
+    }
+
+    fn new_frame(&self, other: &Problem<'_>, session: String) -> DiagnoseError {
+        let bases = (0..self.stands.bases.len()).filter_map(|k| self.stands.base(k));
+        let known = bases.chain((0..self.stands.mounts.len()).filter_map(|k| self.stands.mount(k)));
+        let known: Vec<String> = known.collect();
+        let known = if known.is_empty() { &self.sessions } else { &known };
+        let file = other.data.file.clone();
+        DiagnoseError::NewSession { file, session, known: known.join(", ") }
     }
 }

@@ -5,7 +5,6 @@ use rayon::prelude::*;
 
 use crate::diagnose::data::Problem;
 use crate::diagnose::fit::{Model, Predicted, block, squares};
-use crate::diagnose::options::Nuisance;
 use crate::diagnose::search::{Explained, Search};
 use crate::infer::{Basis, Observations};
 
@@ -55,11 +54,10 @@ impl Spread {
     }
 }
 
-/// The columns of a row's block that a [`Spread`] knows of: the frames of its own session, and effects.
+/// The columns of a row's block that a [`Spread`] knows of: its own frames, and effects.
 fn columns(problem: &Problem<'_>, model: &Model, row: usize) -> Vec<usize> {
-    let is_own =
-        |frame, session| frame == Nuisance::ToolFrame || session == problem.session_of[row];
-    let frames = problem.frames().enumerate().filter(|(_, (f, s))| is_own(*f, *s));
+    let frames = problem.frames().enumerate();
+    let frames = frames.filter(|(_, frame)| problem.is_told_of(row, *frame));
     let mut own: Vec<usize> = frames.flat_map(|(k, _)| 6 * k..6 * k + 6).collect();
     own.extend(Model::nuisances(problem)..model.parameters(problem));
     own
@@ -72,9 +70,9 @@ impl Search<'_, '_> {
         let left = squares(self.problem, &now.fit.predicted.gaps, &now.weights);
         let variance = self.scale(now).variance(left, normal.nrows());
         let root = Basis::new(&normal).t * variance.sqrt();
-        // Elsewhere an arm stands in the frame of one session, and is seen from nowhere in particular.
+        // Elsewhere an arm stands in one frame, and is seen from nowhere in particular.
         let frames = self.problem.frames().enumerate();
-        let one = frames.filter(|(_, (_, session))| *session == 0);
+        let one = frames.filter(|(_, (_, number))| *number == 0);
         let mut kept: Vec<usize> = one.flat_map(|(k, _)| 6 * k..6 * k + 6).collect();
         kept.extend(Model::nuisances(self.problem)..root.nrows());
         let spread = Spread {

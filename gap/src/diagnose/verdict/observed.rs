@@ -2,7 +2,6 @@
 
 use super::certainty::Certainty;
 use crate::diagnose::fit::{Fit, Model};
-use crate::diagnose::options::Nuisance;
 use crate::diagnose::report::{Correlation, CorrelationMatrix, Observability};
 use crate::diagnose::search::Search;
 use crate::infer::{RANK, principal};
@@ -79,12 +78,9 @@ impl Search<'_, '_> {
     /// The names of all parameters, in the order of the model's block.
     fn parameters(&self, model: &Model) -> Vec<String> {
         let problem = self.problem;
-        let frames = problem.frames().flat_map(|(frame, session)| {
-            let of = match problem.sessions.len() > 1 && frame == Nuisance::BaseFrame {
-                true => format!("{} of {}", frame.identifier(), problem.sessions[session]),
-                false => frame.identifier().to_owned(),
-            };
-            FRAME.map(|axis| format!("{axis} of {of}"))
+        let frames = problem.frames().flat_map(|frame| {
+            let of = problem.frame_of(frame).map_or_else(String::new, |of| format!(" of {of}"));
+            FRAME.map(|axis| format!("{axis} of {}{of}", frame.0.identifier()))
         });
         let markers = problem.markers.iter();
         let markers = markers.flat_map(|m| ["x", "y", "z"].map(|axis| format!("{axis} of {m}")));

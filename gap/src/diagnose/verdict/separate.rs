@@ -88,7 +88,7 @@ impl Search<'_, '_> {
         moved.wrench = *wrench;
         let actual = |with: bool| {
             let mut actual = crate::simulate::Actual::new(&model.arm, &moved.q, &moved.wrench);
-            actual.base = model.bases[self.problem.session_of[row]];
+            actual.base = model.bases[self.problem.stands.base_of[row]];
             let known = self.problem.known.iter();
             known.for_each(|known| known.alter(&mut actual, &moved, &when));
             for (index, found) in model.found.iter().enumerate() {

@@ -116,9 +116,12 @@ pub(crate) fn nuisances(problem: &Problem<'_>, model: &Model) -> Vec<NuisanceRep
         translation: at.translation.vector.into(),
         rotation: at.rotation.scaled_axis().into(),
     };
-    let frames = problem.frames().map(|(nuisance, session)| match nuisance {
-        Nuisance::BaseFrame => frame(nuisance.identifier(), &model.bases[session], of(session)),
-        Nuisance::ToolFrame => frame(nuisance.identifier(), &model.tool(), None),
+    let frames = problem.frames().map(|(nuisance, number)| {
+        let at = match nuisance {
+            Nuisance::BaseFrame => model.bases[number],
+            Nuisance::ToolFrame => model.tool(number),
+        };
+        frame(nuisance.identifier(), &at, problem.frame_of((nuisance, number)))
     });
     let point =
         |name: &str, at: &Vector3<f64>, session| frame(name, &Isometry3::from(*at), session);

@@ -7,8 +7,8 @@ use super::super::reality::Reality;
 use super::super::transform::{origin, rotation};
 use super::{Design, Shape, poses, rounded};
 use crate::io::Fault;
-use crate::measurement::{Kind, Measurements, Row};
-use crate::observe::{Aim, Bench, Seen};
+use crate::measurement::{Kind, Measurements, Row, Sight};
+use crate::observe::{Aim, Bench, Look, Seen};
 
 /// Postures by which the reach of an arm is told.
 const REACH: usize = 200;
@@ -49,6 +49,34 @@ pub fn beside(arm: &Arm) -> Isometry3<f64> {
     Isometry3::from_parts(eye.map(|x| rounded(x, 1e6)).into(), turn).inverse()
 }
 
+/// A camera's rows with what is on the tool where the bench has it, and the arm where it stands before what is beside it.
+///
+/// # Errors
+/// [`Fault`]: a bench that does not say, at least roughly, where camera and board are; or several of them.
+pub fn in_view(arm: &Arm, data: &mut Measurements, bench: &Bench) -> Result<Arm, Fault> {
+    let looks = bench.looks();
+    let mut beside: Option<Isometry3<f64>> = None;
+    for sight in data.rows.iter_mut().filter_map(|row| row.camera.as_mut()) {
+        let is = |look: &&Look| {
+            let same = |name: &str, own: &str| own.is_empty() || name == own;
+            same(&look.camera, &sight.camera) && same(&look.board, &sight.board)
+        };
+        let Some(look) = looks.iter().find(is) else {
+            let found = format!("camera `{}` and board `{}`", sight.camera, sight.board);
+            let help = "give the [[camera]] and the [[board]] their `at`, and `rotation` or `towards`; those that are \
+                        on the tool may go without";
+            return Err(Fault::new(found, "a bench that says roughly where both are", help));
+        };
+        sight.at = look.mounted;
+        if *beside.get_or_insert(look.beside) != look.beside {
+            let help = "simulate them one by one";
+            return Err(Fault::new("several things beside the arm", "one", help));
+        }
+    }
+    let beside = beside.unwrap_or_else(Isometry3::identity);
+    Ok(Arm { base: beside.inverse() * arm.base, ..arm.clone() })
+}
+
 impl Design {
     /// The rows as [`Design::rows`] has them, at postures in which a board on the tool faces the bench's camera, each
     /// once for every corner; `arm` stands before the camera ([`beside`]).
@@ -61,6 +89,36 @@ impl Design {
             let expected = "a bench with a [[camera]] on the base that has a matrix, and a [[board]] with corners";
             return Err(Fault::new(found, expected, "write both, and name the file with --bench"));
         };
+        let design = self.before(arm);
+        let of = |row: &Row| -> Vec<Row> {
+            let shown = |corner: &String| Row {
+                marker: Some(corner.clone()),
+                camera: Some(Box::new(Sight {
+                    camera: camera.clone(),
+                    board: board.clone(),
+                    ..Sight::default()
+                })),
+                aim: Some(Box::new(Aim::at(Seen::Camera, camera.clone()))),
+                ..row.clone()
+            };
+            corners.iter().map(shown).collect()
+        };
+        let rows = design.rows.iter().flat_map(of).collect();
+        let mut data = Measurements { rows, by_camera: true, by_board: true, ..design };
+        bench.set_up(&mut data).map_err(|mistake| mistake.fault)?;
+        Ok(data)
+    }
+
+    /// The same of a detector that tells the board's pose in each picture.
+    pub fn detected(&self, arm: &Arm) -> Measurements {
+        let mut data = self.before(arm);
+        let sight = Sight { has_board: true, ..Sight::default() };
+        data.rows.iter_mut().for_each(|row| row.camera = Some(Box::new(sight.clone())));
+        Measurements { by_camera: true, by_board: true, ..data }
+    }
+
+    /// The rows at postures in which what is on the tool faces the camera.
+    fn before(&self, arm: &Arm) -> Measurements {
         let nominal = Reality::nominal(arm);
         let faces = |q: &[f64]| {
             let tool = arm.base.to_homogeneous() * nominal.tool_at(q);
@@ -74,19 +132,6 @@ impl Design {
         let mut postures: Vec<_> = pools.filter(|q| faces(q)).take(self.poses).collect();
         let others = poses::draw(arm, self).into_iter();
         postures.extend(others.take(self.poses - postures.len()));
-        let design = self.at(arm, &postures);
-        let of = |row: &Row| -> Vec<Row> {
-            let shown = |corner: &String| Row {
-                marker: Some(corner.clone()),
-                camera: Some(Box::new([camera.clone(), board.clone()])),
-                aim: Some(Box::new(Aim::at(Seen::Camera, camera.clone()))),
-                ..row.clone()
-            };
-            corners.iter().map(shown).collect()
-        };
-        let rows = design.rows.iter().flat_map(of).collect();
-        let mut data = Measurements { rows, by_camera: true, by_board: true, ..design };
-        bench.set_up(&mut data).map_err(|mistake| mistake.fault)?;
-        Ok(data)
+        self.at(arm, &postures)
     }
 }

@@ -15,7 +15,7 @@ mod poses;
 use stiffarm_kernels::generic::Arm;
 
 pub use bench::placed;
-pub use camera::beside;
+pub use camera::{beside, in_view};
 
 use crate::measurement::{Kind, Measurements, Row};
 use crate::observe::{Aim, Seen, View};
@@ -70,13 +70,14 @@ impl Design {
     ///
     /// Readings are whole microradians (micrometres), loads whole thousandths of SI.
     pub fn rows(&self, arm: &Arm) -> Measurements {
-        let mut poses = poses::draw(arm, self);
-        let is_bench = matches!(self.kind, Kind::Bench { .. });
-        let aims = if is_bench { bench::reach(arm, self, &mut poses) } else { Vec::new() };
-        let mut design = self.at(arm, &poses);
-        for row in design.rows.iter_mut().filter(|_| is_bench) {
-            row.aim = Some(Box::new(aims[row.group].clone()));
+        match self.kind {
+            Kind::Bench { angles: true, .. } => return self.read_by(arm, Seen::Level),
+            Kind::Bench { lengths: 3, .. } => return self.read_by(arm, Seen::Point),
+            Kind::Bench { .. } => return self.read_by(arm, Seen::Plane),
+            _ => {}
         }
+        let poses = poses::draw(arm, self);
+        let mut design = self.at(arm, &poses);
         if self.kind == Kind::Distance {
             let middle = poses::middle(arm, &poses);
             let view = View::Distance { from: middle.into(), offset: 0.0 };
