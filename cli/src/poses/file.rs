@@ -46,11 +46,8 @@ pub fn file(source: &Source, plan: &Plan, found: &Design) -> String {
     }
     let has_boards = bench.iter().any(|target| matches!(target, Station::Board(_)));
     if has_boards {
-        let names: [(&str, fn(&Look) -> &str); 2] =
-            [("camera", |look| &look.camera), ("board", |look| &look.board)];
-        for (head, name) in names {
-            columns.add(head, move |line| quoted(line.corner.map(|(look, _)| name(look))));
-        }
+        columns.add("camera", |line| quoted(line.corner.map(|(look, _)| &*look.camera)));
+        columns.add("board", |line| quoted(line.corner.map(|(look, _)| &*look.board)));
         columns.add("marker", |line| quoted(line.corner.map(|(_, name)| name)));
         for name in PIXEL_NAMES {
             columns.add(format!("{name}[px]"), |_| String::new());

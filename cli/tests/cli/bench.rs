@@ -72,7 +72,7 @@ fn a_camera_finds_a_soft_joint_and_tells_it_in_pixels() {
     let lens: Vec<&str> = lens
         .map(|l| if l.starts_with("distortion") { "fit = [\"distortion\"]" } else { l })
         .collect();
-    let unknown = folder.file("unknown.toml", &lens.join("\n"));
+    let unknown = folder.file("unknown.toml", lens.join("\n"));
     let found = run(&format!("diagnose irb120 {data} --bench {unknown} --json -")).json();
     assert_eq!(list(&found["findings"]).len(), 1, "{found}");
     let constants = list(&found["bench"][0]["constants"]);

@@ -16,6 +16,9 @@ use stiffarm_kernels::generic::{Arm, Convention, Joint};
 use super::{ControllerError, axes, tilt, told};
 use crate::program::{Change, edited};
 
+/// Puts a number of a row.
+type Set = fn(&mut Joint, f64);
+
 /// The table of a model, as `urcontrol.conf` of its controller has it.
 ///
 /// # Errors
@@ -25,12 +28,12 @@ pub fn model(file: &[u8]) -> Result<Arm, ControllerError> {
         ControllerError::Missing("[DH]".to_owned(), "the urcontrol.conf of this robot")
     })?;
     let mut joints = vec![Joint::default(); LINKS.len()];
-    let entries: [(&str, fn(&mut Joint) -> &mut f64); 3] = [
-        ("a", |joint| &mut joint.a),
-        ("d", |joint| &mut joint.d),
-        ("alpha", |joint| &mut joint.alpha),
+    let entries: [(&str, Set); 3] = [
+        ("a", |joint, number| joint.a = number),
+        ("d", |joint, number| joint.d = number),
+        ("alpha", |joint, number| joint.alpha = number),
     ];
-    for (name, entry) in entries {
+    for (name, set) in entries {
         let span = value(&file[start.clone()], name).ok_or_else(|| {
             let expected = "the table in [DH] of this robot's urcontrol.conf";
             ControllerError::Missing(format!("{name} = [...]"), expected)
@@ -46,7 +49,7 @@ pub fn model(file: &[u8]) -> Result<Arm, ControllerError> {
                 expected: "[six numbers of m or rad]",
             });
         }
-        joints.iter_mut().zip(numbers).for_each(|(joint, number)| *entry(joint) = number);
+        joints.iter_mut().zip(numbers).for_each(|(joint, number)| set(joint, number));
     }
     Ok(Arm {
         name: "the model of urcontrol.conf".to_owned(),
@@ -202,7 +205,7 @@ mod tests {
     use super::*;
 
     const MODEL: &str = "[Hardware]\na = [9]\n\n[DH]\na = [0.0, -0.425, -0.3922, 0.0, 0.0, 0.0]\n\
-        d = [0.1625, 0.0, 0.0, 0.1333, 0.0997, 0.0996] # m\nalpha = [1.570796327, 0, 0, 1.570796327, -1.570796327, 0]\n\
+        d = [0.1625, 0.0, 0.0, 0.1333, 0.0997, 0.0996] # m\nalpha = [1.5, 0, 0, 1.5, -1.5, 0]\n\
         q_home_offset = [0, 0, 0, 0, 0, 0]\n\n[Link]\nd = [7]\n";
 
     #[test]
@@ -211,7 +214,7 @@ mod tests {
         let of = |entry: Entry| arm.joints.iter().map(entry).collect::<Vec<f64>>();
         assert_eq!(of(|joint| joint.a), [0.0, -0.425, -0.3922, 0.0, 0.0, 0.0]);
         assert_eq!(of(|joint| joint.d), [0.1625, 0.0, 0.0, 0.1333, 0.0997, 0.0996]);
-        assert_eq!(of(|joint| joint.alpha)[3..], [1.570796327, -1.570796327, 0.0]);
+        assert_eq!(of(|joint| joint.alpha)[3..], [1.5, -1.5, 0.0]);
         // Its deltas from itself are none.
         let none = calibration(None, &arm, &arm).unwrap();
         assert_eq!(none.iter().filter(|byte| (b'1'..=b'9').contains(byte)).count(), 0);

@@ -6,7 +6,7 @@ use stiffarm_kernels::generic::Arm;
 use crate::io::{Columns, number, quoted};
 use crate::measurement::{
     BOARD_NAMES, FROM_NAMES, Kind, Measurements, NORMAL_NAMES, PIXEL_NAMES, Row, SIGMA_PREFIX,
-    SIM_PREFIX, Sight, TILT_NAMES, WRENCH_NAMES,
+    SIM_PREFIX, TILT_NAMES, WRENCH_NAMES,
 };
 use crate::observe::{Aim, Seen, View};
 
@@ -144,11 +144,8 @@ fn bench(columns: &mut Columns<'_, &Row>, data: &Measurements) {
         }
     }
     if any(&|aim| aim.seen == Seen::Camera) {
-        let names: [(&str, fn(&Sight) -> &str); 2] =
-            [("camera", |s| &s.camera), ("board", |s| &s.board)];
-        for (head, name) in names {
-            columns.add(head, move |r| quoted(r.camera.as_deref().map(name)));
-        }
+        columns.add("camera", |r| quoted(r.camera.as_deref().map(|sight| &*sight.camera)));
+        columns.add("board", |r| quoted(r.camera.as_deref().map(|sight| &*sight.board)));
     }
     if any(&|aim| aim.seen == Seen::Direction) {
         columns.add("along[m]", move |r| reads(r, &[Seen::Direction]));

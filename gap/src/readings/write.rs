@@ -227,7 +227,7 @@ fn outputs<'a>(
 fn set(table: &Table<'_>, columns: &Columns, header: &str, cell: &str) -> Result<String, Fault> {
     let name = names::split(header).0;
     let is_ours = Role::of(name, &names::ANY).is_ok_and(|role| role != Role::Extra);
-    if !is_ours && !name.strip_prefix('q').is_some_and(|n| n.parse::<usize>().is_ok()) {
+    if !is_ours && name.strip_prefix('q').is_none_or(|n| n.parse::<usize>().is_err()) {
         let meant = did_you_mean(nearest_name(name, &names::ANY).as_deref());
         let found = format!("`{header}` that is set");
         return Err(Fault::new(found, format!("a column of a measurement file{meant}"), ""));

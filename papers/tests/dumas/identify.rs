@@ -74,6 +74,7 @@ fn a_plan_says_what_the_identification_will() {
     let pull = |x: f64, y: f64, z: f64| nalgebra::Vector6::new(x, y, z, 0.0, 0.0, 0.0);
     let plan = Plan {
         bench: Vec::new(),
+        plates: Vec::new(),
         count: 8,
         purpose: Purpose::Identify,
         along: vec![],

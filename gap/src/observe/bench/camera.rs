@@ -235,14 +235,12 @@ impl Bench {
             if row.aim.as_ref().is_some_and(|aim| aim.seen == Seen::Camera) {
                 let line = row.line;
                 data.by_board |= self.pixels(row).map_err(|fault| fault.at(line, None))?;
-            } else {
-                if has_poses {
-                    self.carried(row);
-                }
+            } else if has_poses {
+                self.carried(row);
             }
         }
-        let unknown = self.camera.iter().filter(|camera| camera.matrix.is_none());
-        unknown.map(|camera| camera.by_pictures(data)).collect::<Result<(), _>>()?;
+        let mut unknown = self.camera.iter().filter(|camera| camera.matrix.is_none());
+        unknown.try_for_each(|camera| camera.by_pictures(data))?;
         Ok(())
     }
 
