@@ -112,7 +112,7 @@ fn every_kind_is_simulated_and_diagnosed() {
             |f: &Value| is(f) || f["alternatives"].as_array().is_some_and(|all| all.iter().any(is));
         assert!(list(&found["findings"]).iter().any(named), "{kind}: {}", found["findings"]);
         let screen = run(&format!("diagnose irb120 {data} --bench {bench}")).good();
-        assert!(screen.contains(&format!("measurements of {subject} at 60 poses")), "{screen}");
+        assert!(screen.contains(&format!(" measurements of {subject} at ")), "{screen}");
     }
 }
 
@@ -182,8 +182,8 @@ fn recordings_in_sockets_become_measurements() {
     }
     let made = folder.name("sockets.csv");
     let all = names.join(" ");
-    run(&format!("measurements {all} --set 'point=rack:{{file}}' --robot irb120 --csv {made}"))
-        .good();
+    let set = "--quiet --set 'point=rack:{file}' --robot irb120";
+    run(&format!("measurements {all} {set} --csv {made}")).good();
     has(&read(&made), &["q6[rad],point", ",rack:hole_0\n", ",rack:hole_5\n"]);
     let found = run(&format!("diagnose irb120 {made} --json -")).json();
     assert!(list(&found["findings"]).iter().any(|f| f["effect"] == "joint_offset"), "{found}");
@@ -201,8 +201,10 @@ fn recordings_in_sockets_become_measurements() {
         }
     }
     let log = folder.file("held.csv", &log);
-    run(&format!("measurements {log} --still 0.8s --set point=one --robot irb120 --csv {made}"))
-        .good();
+    run(&format!(
+        "measurements {log} --quiet --still 0.8s --set point=one --robot irb120 --csv {made}"
+    ))
+    .good();
     let text = read(&made);
     assert_eq!(text.lines().count(), postures.len(), "{text}");
     let told =

@@ -41,6 +41,7 @@
 //! A number is in metres; a text has its unit. What is not said is unknown, and fitted along.
 
 mod camera;
+mod sights;
 
 use nalgebra::{Unit, Vector3};
 use serde::Deserialize;

@@ -41,7 +41,7 @@ pub(crate) fn matrix(
     let count = all().count().max(1) as f64;
     let middle = all().sum::<Vector2<f64>>() / count;
     let spread = (all().map(|at| (at - middle).norm_squared()).sum::<f64>() / count).sqrt();
-    let told = format!("camera `{camera}` has no matrix");
+    let told = format!("no matrix of camera `{camera}`");
     if spread.is_nan() || spread <= 0.0 {
         let found = format!("{told}, and all its pixels are the same");
         let help =

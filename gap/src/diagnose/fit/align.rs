@@ -7,7 +7,8 @@ use nalgebra::{
 use rayon::prelude::*;
 
 use super::model::Model;
-use crate::diagnose::data::Problem;
+use super::refit::refit;
+use crate::diagnose::data::{Problem, Thing};
 use crate::diagnose::options::{DiagnoseError, Nuisance};
 use crate::infer::Basis;
 use crate::measurement::{Kind, Row};
@@ -90,7 +91,21 @@ pub(crate) fn aligned(problem: &Problem<'_>) -> Result<Model, DiagnoseError> {
         let each = tools.iter_mut().zip(&left);
         each.for_each(|(tool, left)| tool.rotation *= nearest_rotation(left));
     }
-    Ok(model)
+    with_lenses_held(problem, model)
+}
+
+/// The frames fitted with every lens as its pictures have it, if one is to be co-estimated: from as far as the first guess
+/// is, a lens would take part of what the frames are off.
+fn with_lenses_held(problem: &Problem<'_>, model: Model) -> Result<Model, DiagnoseError> {
+    let mut held = problem.clone();
+    let is_lens = |thing: &&mut Thing| {
+        matches!(thing.aim.view, View::Camera { .. }) && !thing.aim.free.is_empty()
+    };
+    let lenses = held.bench.iter_mut().filter(is_lens).map(|thing| thing.aim.free = &[]).count();
+    if lenses == 0 {
+        return Ok(model);
+    }
+    Ok(refit(&held, model, None, &problem.mask)?.model)
 }
 
 fn frame_of(vector: &Vector6<f64>) -> Isometry3<f64> {
