@@ -294,7 +294,8 @@ impl Model {
                 // The tool's way in base axes that reads as much as each constant.
                 let view = s.row.view(problem.data.kind).map_or(*view, |of| view.pointed(&of));
                 let back = s.base.rotation.inverse().to_rotation_matrix();
-                let turn = s.base.rotation * s.state.tool.rotation;
+                let mount = problem.stands.mount_of[row].map(|mount| self.mounts[mount].rotation);
+                let turn = s.base.rotation * s.state.tool.rotation * mount.unwrap_or_default();
                 let at = (s.base * Point3::from(s.point)).coords * s.actual.metre;
                 let all = view.as_twists(&Isometry3::from_parts(at.into(), turn));
                 twists = all.select_columns(thing.aim.free);
