@@ -146,8 +146,8 @@ fn a_camera_beside_the_arm_shows_a_soft_joint() {
     }
 }
 
-/// With nothing else unknown, both frames to rounding; a board in a plane and a box. So does a lens that is off by 2 %,
-/// by a camera that is turned on the tool.
+/// With nothing else unknown, both frames to rounding; a board in a plane and a box. So does a lens that is off by up to
+/// 2 %, by a camera that is turned on the tool.
 #[test]
 fn a_camera_on_the_tool_gives_both_frames_and_its_lens() {
     let arm = spatial(Convention::Standard);
@@ -173,7 +173,8 @@ fn a_camera_on_the_tool_gives_both_frames_and_its_lens() {
             let data = read(&arm, &measured, &bench("tool", lens, &corners));
             diagnose(&arm, &data, &Options::default()).expect("a diagnosis")
         };
-        let off = found_by(&lens(MATRIX.map(|x| 1.02 * x), &DISTORTION, "fit = [\"matrix\"]"));
+        let off =
+            found_by(&lens([1230.0, 1180.0, 650.0, 350.0], &DISTORTION, "fit = [\"matrix\"]"));
         for (constant, was) in off.bench[0].constants.iter().zip(MATRIX) {
             assert!((constant.value - was).abs() < 1e-4, "{constant:?} {was}");
         }
