@@ -30,7 +30,7 @@ pub use lens::Lens;
 pub use look::Look;
 pub use pair::Pair;
 pub use plane::Plane;
-pub(crate) use resection::pose;
+pub(crate) use resection::{nearest_rotation, pose};
 
 /// Constants that a view has at most.
 pub(crate) const MOST_CONSTANTS: usize = lens::CONSTANTS;

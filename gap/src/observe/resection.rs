@@ -125,7 +125,19 @@ fn equations(point: &[f64], direction: &Vector2<f64>) -> [Vec<f64>; 2] {
 
 fn near(matrix: &Matrix3<f64>) -> Option<UnitQuaternion<f64>> {
     let is_finite = matrix.iter().all(|x| x.is_finite());
-    is_finite.then(|| UnitQuaternion::from_matrix(matrix))
+    is_finite.then(|| nearest_rotation(matrix))
+}
+
+/// The rotation with the largest trace product with a matrix.
+pub(crate) fn nearest_rotation(matrix: &Matrix3<f64>) -> UnitQuaternion<f64> {
+    let svd = matrix.svd(true, true);
+    let (Some(u), Some(v)) = (svd.u, svd.v_t) else { return UnitQuaternion::identity() };
+    let mut sign = Matrix3::identity();
+    // The least singular value pays for a reflection.
+    let least = (0..3).min_by(|a, b| svd.singular_values[*a].total_cmp(&svd.singular_values[*b]));
+    let least = least.unwrap_or(2);
+    sign[(least, least)] = (u * v).determinant().signum();
+    UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(u * sign * v))
 }
 
 /// The other pose in which a small flat object looks nearly the same: tilted the other way about the line of sight.

@@ -1,9 +1,7 @@
 //! First guess of unknown frames, good enough for the exact fit to converge from: a tracker may
 //! stand anywhere.
 
-use nalgebra::{
-    DMatrix, DVector, Isometry3, Matrix3, Rotation3, UnitQuaternion, Vector2, Vector3, Vector6,
-};
+use nalgebra::{DMatrix, DVector, Isometry3, Matrix3, Vector2, Vector3, Vector6};
 use rayon::prelude::*;
 
 use super::model::Model;
@@ -12,7 +10,7 @@ use crate::diagnose::data::{Problem, Thing};
 use crate::diagnose::options::{DiagnoseError, Nuisance};
 use crate::infer::Basis;
 use crate::measurement::{Kind, Row};
-use crate::observe::{View, pose};
+use crate::observe::{View, nearest_rotation, pose};
 use crate::simulate::Reading;
 
 /// Most steps of a thing's least squares, which are nearly linear from where they begin.
@@ -208,18 +206,6 @@ pub(crate) fn rigid(from: &[Vector3<f64>], to: &[Vector3<f64>]) -> Isometry3<f64
     let moment = from.iter().zip(to).map(|(f, t)| (t - there) * (f - here).transpose());
     let rotation = nearest_rotation(&moment.sum());
     Isometry3::from_parts((there - rotation * here).into(), rotation)
-}
-
-/// The rotation with the largest trace product with a matrix.
-fn nearest_rotation(matrix: &Matrix3<f64>) -> UnitQuaternion<f64> {
-    let svd = matrix.svd(true, true);
-    let (Some(u), Some(v)) = (svd.u, svd.v_t) else { return UnitQuaternion::identity() };
-    let mut sign = Matrix3::identity();
-    // The least singular value pays for a reflection.
-    let least = (0..3).min_by(|a, b| svd.singular_values[*a].total_cmp(&svd.singular_values[*b]));
-    let least = least.unwrap_or(2);
-    sign[(least, least)] = (u * v).determinant().signum();
-    UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(u * sign * v))
 }
 
 #[cfg(test)]
