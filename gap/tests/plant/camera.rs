@@ -146,10 +146,9 @@ fn a_camera_beside_the_arm_shows_a_soft_joint() {
     }
 }
 
-/// With nothing else unknown, both frames to rounding; a board in a plane and a box. So does a lens that is off by up to
-/// 2 %, by a camera that is turned on the tool.
+/// With nothing else unknown, both frames to rounding; a board in a plane and a box.
 #[test]
-fn a_camera_on_the_tool_gives_both_frames_and_its_lens() {
+fn a_camera_on_the_tool_gives_both_frames() {
     let arm = spatial(Convention::Standard);
     let tool = Isometry3::new(Vector3::new(0.05, -0.02, 0.1), Vector3::new(0.2, -0.3, 0.5));
     let first = Design {
@@ -168,17 +167,9 @@ fn a_camera_on_the_tool_gives_both_frames_and_its_lens() {
         let corners = corners(flat);
         let design = shown(&arm, Shape::Narrow, &frames, true, &corners);
         let plant = plant(&arm, &[]).with_frames(frames.clone());
-        let measured = plant.measure(&design, EXACT, 0).expect("rows");
-        let found_by = |lens: &str| {
-            let data = read(&arm, &measured, &bench("tool", lens, &corners));
-            diagnose(&arm, &data, &Options::default()).expect("a diagnosis")
-        };
-        let off =
-            found_by(&lens([1230.0, 1180.0, 650.0, 350.0], &DISTORTION, "fit = [\"matrix\"]"));
-        for (constant, was) in off.bench[0].constants.iter().zip(MATRIX) {
-            assert!((constant.value - was).abs() < 1e-4, "{constant:?} {was}");
-        }
-        let found = found_by(&lens(MATRIX, &DISTORTION, ""));
+        let data = plant.measure(&design, EXACT, 0).expect("rows");
+        let data = read(&arm, &data, &bench("tool", &lens(MATRIX, &DISTORTION, ""), &corners));
+        let found = diagnose(&arm, &data, &Options::default()).expect("a diagnosis");
         let [base, tool] = &found.nuisances[..] else { panic!("{:?}", found.nuisances) };
         for (is, was) in
             [base, tool].into_iter().zip([frames.base * arm.base, arm.tool * frames.tool])
