@@ -95,14 +95,13 @@ pub(crate) fn aligned(problem: &Problem<'_>) -> Result<Model, DiagnoseError> {
 /// The frames fitted with every lens as its pictures have it, if one is to be co-estimated: from as far as the first guess
 /// is, a lens would take part of what the frames are off.
 fn with_lenses_held(problem: &Problem<'_>, model: Model) -> Result<Model, DiagnoseError> {
-    let mut held = problem.clone();
-    let is_lens = |thing: &&mut Thing| {
-        matches!(thing.aim.view, View::Camera { .. }) && !thing.aim.free.is_empty()
-    };
-    let lenses = held.bench.iter_mut().filter(is_lens).map(|thing| thing.aim.free = &[]).count();
-    if lenses == 0 {
+    let is_lens =
+        |thing: &Thing| matches!(thing.aim.view, View::Camera { .. }) && !thing.aim.free.is_empty();
+    if !problem.bench.iter().any(is_lens) {
         return Ok(model);
     }
+    let mut held = problem.clone();
+    held.bench.iter_mut().filter(|thing| is_lens(thing)).for_each(|thing| thing.aim.free = &[]);
     Ok(refit(&held, model, None, &problem.mask)?.model)
 }
 
