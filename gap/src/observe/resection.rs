@@ -125,7 +125,9 @@ fn equations(point: &[f64], direction: &Vector2<f64>) -> [Vec<f64>; 2] {
 
 fn near(matrix: &Matrix3<f64>) -> Option<UnitQuaternion<f64>> {
     let is_finite = matrix.iter().all(|x| x.is_finite());
-    is_finite.then(|| nearest_rotation(matrix))
+    // Without a last iteration it hangs on what is far from a rotation.
+    let near = UnitQuaternion::identity();
+    is_finite.then(|| UnitQuaternion::from_matrix_eps(matrix, f64::EPSILON, 200, near))
 }
 
 /// The rotation with the largest trace product with a matrix.
