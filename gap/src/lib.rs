@@ -31,6 +31,7 @@ pub mod measurement;
 pub mod mistakes;
 pub mod motion;
 pub mod observe;
+mod parallel;
 pub mod performance;
 pub mod plant;
 pub mod pool;

@@ -1,12 +1,12 @@
 //! What an arm as its file has it reads in rows of its own: nothing is fitted.
 
 use nalgebra::{Isometry3, Vector6};
-use rayon::prelude::*;
 use stiffarm_kernels::Unstable;
 
 use crate::diagnose::DiagnoseError;
 use crate::effects::Known;
 use crate::measurement::{Kind, Measurements, Row};
+use crate::parallel;
 use crate::simulate::{Actual, Moment, Sim, moments};
 use crate::whole::Whole;
 
@@ -24,16 +24,16 @@ pub fn predicted<'a>(
     let Whole { arm, known } = whole.into();
     let known: Vec<Known> = known.iter().filter(|known| known.is_there(data)).cloned().collect();
     let here = Whole { arm, known: &known };
-    let read = |(row, when): (&Row, &Moment)| -> Result<Row, DiagnoseError> {
+    let moments = moments(data);
+    let read = |k: usize| -> Result<Row, DiagnoseError> {
+        let (row, when): (&Row, &Moment) = (&data.rows[k], &moments[k]);
         are_known(here, data, row)?;
         let unstable = |_| DiagnoseError::Unstable { file: data.file.clone(), line: row.line };
         let measured = reading(here, data.kind, row, when).map_err(unstable)?;
         Ok(Row { measured, sim: None, ..row.clone() })
     };
     // The first row's error is told, however many are worked on at once.
-    let rows: Vec<Result<Row, DiagnoseError>> =
-        data.rows.par_iter().zip(&moments(data)).map(read).collect();
-    let rows = rows.into_iter().collect::<Result<_, _>>()?;
+    let rows = parallel::map(data.rows.len(), &read).into_iter().collect::<Result<_, _>>()?;
     Ok(Measurements { rows, sim_given: [false; 6], ..data.clone() })
 }
 

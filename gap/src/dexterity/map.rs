@@ -1,7 +1,7 @@
 //! A quantity over two joints, the others held: data, not a picture.
 
+use crate::parallel;
 use nalgebra::DMatrix;
-use rayon::prelude::*;
 use stiffarm_kernels::generic::Arm;
 
 use super::{DexterityError, check_posture};
@@ -96,9 +96,8 @@ impl Plane {
     /// That of the first cell that has one.
     pub fn map<E: Send>(&self, value: impl Fn(&[f64]) -> Result<f64, E> + Sync) -> Result<Map, E> {
         let (rows, columns) = (self.first.len(), self.second.len());
-        let cells = (0..rows * columns).into_par_iter();
-        let values: Vec<Result<f64, E>> =
-            cells.map(|k| value(&self.at(k % rows, k / rows))).collect();
+        let of_cell = |k: usize| value(&self.at(k % rows, k / rows));
+        let values: Vec<Result<f64, E>> = parallel::map(rows * columns, &of_cell);
         let values = values.into_iter().collect::<Result<Vec<f64>, E>>()?;
         Ok(Map { plane: self.clone(), values: DMatrix::from_vec(rows, columns, values) })
     }

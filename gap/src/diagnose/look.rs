@@ -1,7 +1,6 @@
 //! What the data show, what explains it, and which rows do not fit that.
 
 use nalgebra::Vector6;
-use rayon::prelude::*;
 
 use super::data::{LARGEST, Precision, Problem, fitting};
 use super::fit::Model;
@@ -11,6 +10,7 @@ use super::search::{Explained, Search};
 use super::verdict::Held;
 use crate::effects::Effect;
 use crate::infer::{Basis, Observations};
+use crate::parallel;
 
 /// What was seen before anything was found, and what explains it.
 pub(crate) struct Looked {
@@ -84,7 +84,7 @@ impl Search<'_, '_> {
             let of = |k: usize| gap[k] / (1.0 + doubt.row(k).norm_squared()).sqrt();
             Some([gap, Vector6::from_fn(|k, _| of(k))])
         };
-        let seen: Vec<_> = (0..rows.len()).into_par_iter().map(seen).collect();
+        let seen = parallel::map(rows.len(), &seen);
         let farthest = [Vector6::repeat(LARGEST); 2];
         let judged: Vec<_> = seen.iter().map(|both| both.unwrap_or(farthest)[1]).collect();
         let fits = fitting(self.problem, &now.noise, &judged);

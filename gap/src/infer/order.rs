@@ -1,6 +1,6 @@
 //! Parts of a model in the order in which they make something smallest.
 
-use rayon::prelude::*;
+use crate::parallel;
 
 /// So many parts one after the other, always the one `with` which, beside those before it, `size` is least; each with
 /// what it comes to.
@@ -14,7 +14,7 @@ pub(crate) fn ordered<T: Send>(
     while !rest.is_empty() {
         let before: Vec<usize> = done.iter().map(|(part, _)| *part).collect();
         let beside = |next: &usize| with(&[&before[..], &[*next]].concat());
-        let tried: Vec<T> = rest.par_iter().map(beside).collect();
+        let tried: Vec<T> = parallel::each(&rest, &beside);
         let sizes: Vec<f64> = tried.iter().map(&size).collect();
         let best = (0..rest.len()).min_by(|a, b| sizes[*a].total_cmp(&sizes[*b])).unwrap_or(0);
         let part = rest.remove(best);

@@ -1,10 +1,9 @@
 //! Candidates beside a fitted model, in coordinates of the model in which its normal matrix is the
 //! identity.
 
-use rayon::prelude::*;
-
 use super::basis::Basis;
 use super::products::{Products, starts};
+use crate::parallel;
 
 /// What may be added to a model, as far as its columns go.
 pub(crate) trait Columns: Sync {
@@ -87,8 +86,8 @@ impl<'c, C: Columns> Screen<'c, C> {
         folds: usize,
     ) -> Self {
         let turn = |products: &mut Products| products.turn(&self.basis.t);
-        blocks.par_iter_mut().for_each(turn);
-        plain.par_iter_mut().for_each(turn);
+        parallel::change(&mut blocks, &turn);
+        parallel::change(&mut plain, &turn);
         let sizes: Vec<usize> = self.candidates.iter().map(Columns::columns).collect();
         self.folds = vec![Products::zeros(self.basis.rank(), &sizes); folds];
         for (products, fold) in blocks.iter().zip(fold_of_block) {

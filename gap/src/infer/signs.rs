@@ -5,10 +5,10 @@
 use std::collections::BTreeSet;
 
 use nalgebra::DMatrix;
-use rayon::prelude::*;
 
 use super::score::Score;
 use super::screen::{Columns, Screen};
+use crate::parallel;
 use crate::rng::{Rng, Stream};
 
 /// Random sign patterns: the least p value is one in so many.
@@ -48,11 +48,11 @@ impl Signs {
     /// The largest squared norm of the sums over the blocks that one of some candidates has under each
     /// pattern; of each candidate a column for each block.
     pub(crate) fn largest(&self, shares: &[&DMatrix<f64>]) -> Vec<f64> {
-        let of_some = |some: &[&DMatrix<f64>]| -> Vec<f64> {
+        let of_some = |some: &&[&DMatrix<f64>]| -> Vec<f64> {
             let rows: Vec<usize> = some.iter().map(|shares| shares.nrows()).collect();
             let mut all = DMatrix::zeros(rows.iter().sum(), self.patterns.nrows());
             let mut from = 0;
-            for shares in some {
+            for shares in *some {
                 all.rows_mut(from, shares.nrows()).copy_from(shares);
                 from += shares.nrows();
             }
@@ -65,7 +65,8 @@ impl Signs {
             };
             sums.as_slice().chunks_exact(sums.nrows().max(1)).map(largest).collect()
         };
-        let all: Vec<Vec<f64>> = shares.par_chunks(TOGETHER).map(of_some).collect();
+        let some: Vec<&[&DMatrix<f64>]> = shares.chunks(TOGETHER).collect();
+        let all = parallel::each(&some, &of_some);
         let of_pattern = |k: usize| all.iter().map(move |f| f.get(k).copied().unwrap_or(0.0));
         (0..self.patterns.ncols()).map(|k| of_pattern(k).fold(0.0, f64::max)).collect()
     }
@@ -114,8 +115,7 @@ impl SignFlips {
     ) -> Self {
         let signs = Signs::new(screen.blocks.len(), seed);
         let left = screen.left_by_block();
-        let shares: Vec<DMatrix<f64>> =
-            tried.par_iter().map(|c| screen.shares(*c, &left)).collect();
+        let shares: Vec<DMatrix<f64>> = parallel::each(tried, &|c| screen.shares(*c, &left));
         let ranks: BTreeSet<usize> = shares.iter().map(DMatrix::nrows).filter(|r| *r > 0).collect();
         let mut highest = vec![f64::NEG_INFINITY; signs.patterns.ncols()];
         for rank in ranks {

@@ -8,7 +8,6 @@
 use core::ops::Range;
 
 use nalgebra::{DMatrix, DVector};
-use rayon::prelude::*;
 
 use super::model::Acting;
 use super::scene::{Column, Domain};
@@ -16,6 +15,7 @@ use super::search::case::{Case, Simple, Wanted};
 use super::search::fit::{Links, weights};
 use super::signal::{Signals, Span};
 use crate::infer::Basis;
+use crate::parallel;
 
 /// Rows that are gone through at once.
 const ROWS: usize = 4096;
@@ -84,10 +84,9 @@ impl Asked<'_> {
         });
         let chunks: Vec<(&Span, Range<usize>)> = chunks.collect();
         let counts = self.case.counts();
-        let sums = chunks
-            .par_iter()
-            .map(|(span, rows)| self.equations(&commanded, span, rows, &counts))
-            .reduce_with(Equations::plus)?;
+        let of_rows =
+            |(span, rows): &(&Span, Range<usize>)| self.equations(&commanded, span, rows, &counts);
+        let sums = parallel::each(&chunks, &of_rows).into_iter().reduce(Equations::plus)?;
         let own: usize = self.terms.iter().map(|term| term.values.len()).sum();
         sums.solved().map(|all| all.iter().copied().skip(all.len() - own).collect())
     }

@@ -3,9 +3,9 @@
 //! No list of round numbers holds them, and a linear step from the file does not reach them. The amount is looked for
 //! over its whole range with the frames in closed form, and the best are fitted as one more unknown.
 
+use crate::parallel;
 use core::f64::consts::{PI, TAU};
 
-use rayon::prelude::*;
 use stiffarm_kernels::Motion;
 
 use super::kind::{Entry, Mistake};
@@ -84,7 +84,8 @@ impl Search<'_> {
         let few = self.rows.fewer(FEW);
         let most = WORTH * self.framed(others.to_vec(), &few);
         let best_of = |amounts: &Vec<Mistake>| {
-            if self.bench.is_some() && !amounts[0].is_zero() {
+            let is_new = others.iter().all(|other| other.may_join(amounts[0]));
+            if !is_new || self.bench.is_some() && !amounts[0].is_zero() {
                 return None;
             }
             let each = amounts.iter().map(|off| {
@@ -93,9 +94,8 @@ impl Search<'_> {
             });
             each.min_by(|a, b| a.0.total_cmp(&b.0)).filter(|(left, _)| *left < most)
         };
-        let amounts = self.amounts().into_par_iter();
-        let new = amounts.filter(|off| others.iter().all(|other| other.may_join(off[0])));
-        self.refined(new.filter_map(|off| best_of(&off)).collect(), BEST)
+        let best = parallel::each(&self.amounts(), &best_of);
+        self.refined(best.into_iter().flatten().collect(), BEST)
     }
 
     /// The best pairs of a joint's zero and anything else, another joint's zero among them.
@@ -118,7 +118,8 @@ impl Search<'_> {
             });
             each.min_by(|a, b| a.0.total_cmp(&b.0)).filter(|(left, _)| left.is_finite())
         };
-        self.refined(others.par_iter().filter_map(best_of).collect(), BEST)
+        let best = parallel::each(&others, &best_of);
+        self.refined(best.into_iter().flatten().collect(), BEST)
     }
 
     /// The same with amounts that need no zeros and springs beside them, where these explain nothing: what the diagnosis

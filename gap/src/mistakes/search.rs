@@ -1,6 +1,5 @@
 //! Which mistakes explain a gap that is too large for an arm: one, else two.
 
-use rayon::prelude::*;
 use stiffarm_kernels::generic::Arm;
 
 use super::fit::{Fit, Left};
@@ -9,6 +8,7 @@ use super::off;
 use super::rows::Rows;
 use crate::diagnose::Options;
 use crate::doubts::reach;
+use crate::parallel;
 
 /// Of the reach: what 198 of 200 arms of `tests/withheld/mistakes.rs` leave beside fitted zeros and springs (the
 /// median 0.0002, the largest 0.0013). A smaller gap is asked for the units of its loads alone.
@@ -126,7 +126,8 @@ impl Search<'_> {
     pub(super) fn refined(&self, mut found: Vec<(f64, Vec<Mistake>)>, most: usize) -> Vec<Tried> {
         found.sort_by(|a, b| a.0.total_cmp(&b.0));
         found.truncate(most);
-        found.into_par_iter().filter_map(|(_, mistakes)| self.tried(mistakes)).collect()
+        let all = parallel::each(&found, &|(_, mistakes)| self.tried(mistakes.clone()));
+        all.into_iter().flatten().collect()
     }
 
     pub(super) fn fit(
@@ -221,12 +222,18 @@ impl Search<'_> {
         let joined = |mistake: &Mistake| [others, &[*mistake]].concat();
         if self.bench.is_some() {
             let few = self.rows.fewer(FEW);
-            let each = self.all.par_iter().filter(|m| others.iter().all(|o| o.may_join(**m)));
-            let framed = |mistake| (self.framed(joined(mistake), &few), joined(mistake));
-            return self.refined(each.map(framed).collect(), BEST_OF_BENCH);
+            let framed = |mistake: &Mistake| {
+                let may = others.iter().all(|other| other.may_join(*mistake));
+                may.then(|| (self.framed(joined(mistake), &few), joined(mistake)))
+            };
+            let found = parallel::each(&self.all, &framed);
+            return self.refined(found.into_iter().flatten().collect(), BEST_OF_BENCH);
         }
-        let each = self.all.par_iter().filter(is_new);
-        each.filter_map(|mistake| self.tried(joined(mistake))).collect()
+        let tried = |mistake: &Mistake| {
+            let new = Some(mistake).filter(is_new);
+            new.and_then(|mistake| self.tried(joined(mistake)))
+        };
+        parallel::each(&self.all, &tried).into_iter().flatten().collect()
     }
 
     /// The pairs that leave least with frames alone, on few rows.
@@ -243,8 +250,8 @@ impl Search<'_> {
             let joined = (first + 1..all.len()).filter(|k| all[first].may_join(all[*k]));
             joined.filter_map(pair).collect::<Vec<_>>()
         };
-        let pairs = (0..all.len()).into_par_iter().flat_map_iter(of_first).collect();
-        self.refined(pairs, BEST_PAIRS)
+        let pairs = parallel::map(all.len(), &of_first);
+        self.refined(pairs.concat(), BEST_PAIRS)
     }
 
     /// Pairs with those of some mistakes that leave least.
@@ -259,9 +266,10 @@ impl Search<'_> {
         let is_large = nothing.left.size > ORDINARY * self.reach;
         if !is_large {
             // What loads do is of the size of what springs do, whatever their unit.
-            let loads = self.all.par_iter().filter(|mistake| mistake.is_of_load());
-            let tried = loads.filter_map(|load| self.tried(vec![*load])).collect();
-            let best = self.best(nothing, MOST_LEFT, tried);
+            let loads: Vec<&Mistake> =
+                self.all.iter().filter(|mistake| mistake.is_of_load()).collect();
+            let tried = parallel::each(&loads, &|load| self.tried(vec![**load]));
+            let best = self.best(nothing, MOST_LEFT, tried.into_iter().flatten().collect());
             return best.map_or(Found::Nothing, |(best, same)| Found::Mistakes(best, same));
         }
         let singles = self.beside(&[]);

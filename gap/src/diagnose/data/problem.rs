@@ -1,7 +1,6 @@
 //! The data as it is to be explained: an arm, its measurements, and what is known to be unknown.
 
 use nalgebra::{Isometry3, Point3, Vector6};
-use rayon::prelude::*;
 use stiffarm_kernels::generic::Arm;
 
 use super::outliers::ordinary;
@@ -15,6 +14,7 @@ use crate::effects::{Effect, Known};
 use crate::gap::Statistics;
 use crate::measurement::{Kind, Measurements, Row, Stands, number_of};
 use crate::observe::{Aim, Pair, Seen};
+use crate::parallel;
 use crate::simulate::{Actual, Moments, Reading, Sim};
 use crate::spring::Spring;
 
@@ -162,9 +162,7 @@ impl<'a> Problem<'a> {
         // The first row's error is told, however many rows are worked on at once.
         for first in (0..data.rows.len()).step_by(AT_ONCE) {
             let some = first..(first + AT_ONCE).min(data.rows.len());
-            let each: Vec<Result<(Reading, f64), DiagnoseError>> =
-                some.into_par_iter().map(seen).collect();
-            for one in each {
+            for one in parallel::map(some.len(), &|k| seen(first + k)) {
                 let (reading, far) = one?;
                 reach = reach.max(far);
                 readings.extend(own.then_some(reading));

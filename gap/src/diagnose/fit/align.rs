@@ -2,7 +2,6 @@
 //! stand anywhere.
 
 use nalgebra::{DMatrix, DVector, Isometry3, Matrix3, Vector2, Vector3, Vector6};
-use rayon::prelude::*;
 
 use super::model::Model;
 use super::refit::refit;
@@ -11,6 +10,7 @@ use crate::diagnose::options::{DiagnoseError, Nuisance};
 use crate::infer::Basis;
 use crate::measurement::{Kind, Row};
 use crate::observe::{View, nearest_rotation, pose};
+use crate::parallel;
 use crate::simulate::Reading;
 
 /// Most steps of a thing's least squares, which are nearly linear from where they begin.
@@ -33,11 +33,11 @@ pub(crate) fn aligned(problem: &Problem<'_>) -> Result<Model, DiagnoseError> {
     }
     let rows = 0..problem.data.rows.len();
     // Of very many rows the states are more than memory holds.
-    let seen = rows.clone().into_par_iter().map(|row| {
+    let seen = parallel::map(rows.len(), &|row| {
         let sim = model.sim(problem, row, None)?;
         Ok([sim.base * sim.loaded.tool, sim.seen_frame()])
     });
-    let seen: Vec<[Isometry3<f64>; 2]> = seen.collect::<Result<_, DiagnoseError>>()?;
+    let seen: Vec<[Isometry3<f64>; 2]> = seen.into_iter().collect::<Result<_, DiagnoseError>>()?;
     for (number, (view, thing)) in model.bench.iter_mut().zip(&problem.bench).enumerate() {
         let of = rows.clone().filter(|row| problem.bench_of[*row] == Some(number));
         let read =
@@ -166,14 +166,13 @@ pub(crate) fn fitted_thing(
 ) -> Result<View, DiagnoseError> {
     let rows = (0..problem.data.rows.len()).filter(|row| problem.bench_of[*row] == Some(thing));
     let rows: Vec<usize> = rows.filter(|row| problem.fits[*row]).collect();
-    let read: Vec<_> = (rows.into_par_iter())
-        .map(|row| {
-            let (sim, row) = (model.sim(problem, row, None)?, &problem.data.rows[row]);
-            let first = if problem.bench[thing].aim.view.is_angle() { 3 } else { 0 };
-            let value = row.measured.fixed_rows::<3>(first).into_owned();
-            Ok((sim.seen_frame(), value, row.view(problem.data.kind)))
-        })
-        .collect::<Result<_, DiagnoseError>>()?;
+    let read = parallel::each(&rows, &|row| {
+        let (sim, row) = (model.sim(problem, *row, None)?, &problem.data.rows[*row]);
+        let first = if problem.bench[thing].aim.view.is_angle() { 3 } else { 0 };
+        let value = row.measured.fixed_rows::<3>(first).into_owned();
+        Ok((sim.seen_frame(), value, row.view(problem.data.kind)))
+    });
+    let read: Vec<_> = read.into_iter().collect::<Result<_, DiagnoseError>>()?;
     let aim = &problem.bench[thing].aim;
     if read.is_empty() {
         return Ok(aim.view);

@@ -4,7 +4,6 @@
 use std::borrow::Cow;
 
 use nalgebra::{DMatrix, DVector, Isometry3, Matrix6xX, Point3, Vector3, Vector6};
-use rayon::prelude::*;
 use stiffarm_kernels::generic::Arm;
 
 use super::axes::Axes;
@@ -16,6 +15,7 @@ use crate::displacement::Displacement;
 use crate::effects::{Effect, JOINT_SPRING, Place, Scene, Spot};
 use crate::gap::row_gap;
 use crate::observe::View;
+use crate::parallel;
 use crate::simulate::{Actual, Moment, Sim, Site, State};
 
 /// An effect with its values.
@@ -158,7 +158,7 @@ impl Model {
         near: Option<&[Sim]>,
     ) -> Result<Predicted, DiagnoseError> {
         let rows = problem.data.rows.len();
-        let each = (0..rows).into_par_iter().map(|row| {
+        let seen = |row: usize| {
             let near = near.and_then(|near| near.get(row));
             if problem.fits[row] {
                 return self.seen(problem, row, near);
@@ -166,11 +166,16 @@ impl Model {
             // Nothing is asked of it: its load may be more than the arm bears.
             let unloaded = |_| self.at_rest(problem, row, None, false);
             Ok((self.sim(problem, row, near).or_else(unloaded)?, Vector6::zeros()))
-        });
+        };
         let (sims, mut gaps): (Vec<Sim>, Vec<Vector6<f64>>) = if rows <= MOST_KEPT {
-            each.collect::<Result<Vec<_>, _>>()?.into_iter().unzip()
+            parallel::map(rows, &seen)
+                .into_iter()
+                .collect::<Result<Vec<_>, _>>()?
+                .into_iter()
+                .unzip()
         } else {
-            (Vec::new(), each.map(|both| both.map(|(_, gap)| gap)).collect::<Result<_, _>>()?)
+            let gaps = parallel::map(rows, &|row| seen(row).map(|(_, gap)| gap));
+            (Vec::new(), gaps.into_iter().collect::<Result<_, _>>()?)
         };
         for rows in &problem.constants {
             let mean = rows.iter().map(|&row| gaps[row]).sum::<Vector6<f64>>() / rows.len() as f64;

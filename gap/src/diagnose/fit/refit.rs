@@ -6,13 +6,13 @@
 use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector, Matrix6xX, Vector6};
-use rayon::prelude::*;
 
 use super::bond::Bond;
 use super::model::{Model, Predicted};
 use crate::diagnose::data::Problem;
 use crate::diagnose::options::DiagnoseError;
 use crate::infer::{RANK, Squares};
+use crate::parallel;
 use crate::simulate::Sim;
 
 /// Most steps: the blocks leave out terms of second order, so that the error falls by a factor of
@@ -150,7 +150,7 @@ pub(crate) fn normal_equations(
     let (mut normal, mut right) = (DMatrix::zeros(k, k), DVector::zeros(k));
     // Some at once: the products of all chunks of very many rows would be as large as the rows.
     for some in chunks.chunks(AT_ONCE) {
-        let parts: Vec<(DMatrix<f64>, DVector<f64>)> = some.par_iter().map(products).collect();
+        let parts: Vec<(DMatrix<f64>, DVector<f64>)> = parallel::each(some, &products);
         for (products, with_gap) in &parts {
             normal += products;
             right += with_gap;

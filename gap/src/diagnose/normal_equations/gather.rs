@@ -7,7 +7,6 @@
 //! added up in their order: the bits do not depend on the number of threads.
 
 use nalgebra::{DMatrix, Matrix6xX, Vector6};
-use rayon::prelude::*;
 
 use super::candidate::Candidate;
 use super::layout::Layout;
@@ -15,6 +14,7 @@ use super::stack::{Seen, Stack, Sum};
 use crate::diagnose::data::{Folds, Problem};
 use crate::diagnose::fit::Fit;
 use crate::infer::{Choice, Products};
+use crate::parallel;
 
 /// Rows whose columns stand beside each other before their products are taken: few enough for a
 /// cache.
@@ -79,7 +79,7 @@ impl Gathered {
         let (mut blocks, mut plain_blocks) = (Vec::new(), Vec::new());
         // Some blocks at once: of very many joints each has more numbers than all that is kept.
         for some in of_block.chunks(AT_ONCE * rayon::current_num_threads()) {
-            let each: Vec<(Products, Products)> = some.par_iter().map(of_rows).collect();
+            let each: Vec<(Products, Products)> = parallel::each(some, &of_rows);
             for (white, main) in each {
                 total.add(&white);
                 let main = narrow(main);

@@ -4,13 +4,13 @@
 use std::sync::Arc;
 
 use nalgebra::DVector;
-use rayon::prelude::*;
 
 use super::candidate::Candidate;
 use super::gather::Gathered;
 use crate::diagnose::data::{Folds, Problem};
 use crate::diagnose::fit::{Bond, Model};
 use crate::infer::{self, Basis, Choice, Columns, Products, starts};
+use crate::parallel;
 
 /// The candidates against a fitted model.
 pub(crate) type Screen<'c> = infer::Screen<'c, Candidate>;
@@ -95,9 +95,8 @@ impl<'c> Screen<'c> {
         if kept.whole {
             return screen;
         }
-        let chosen = |of: &[Products]| -> Vec<Products> {
-            of.par_iter().map(|p| p.chosen(&choice)).collect()
-        };
+        let chosen =
+            |of: &[Products]| -> Vec<Products> { parallel::each(of, &|p| p.chosen(&choice)) };
         let (blocks, plain) = (chosen(&gathered.blocks), chosen(&gathered.plain));
         screen.by_block(blocks, plain, &folds.of_block, folds.count)
     }

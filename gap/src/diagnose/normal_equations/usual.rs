@@ -3,12 +3,11 @@
 
 use std::borrow::Cow;
 
-use rayon::prelude::*;
-
 use super::candidate::Candidate;
 use crate::diagnose::data::Problem;
 use crate::diagnose::fit::Model;
 use crate::diagnose::options::DiagnoseError;
+use crate::parallel;
 use crate::simulate::Sim;
 
 /// An arm's tool hardly moves by more than this part of its reach because something gives (by so many
@@ -38,7 +37,10 @@ pub(crate) fn scale_elastic(
         true => (0, PART * problem.reach),
         false => (3, PART),
     };
-    candidates.par_iter_mut().filter(|c| is_open(c)).for_each(|candidate| {
+    parallel::change(candidates, &|candidate| {
+        if !is_open(candidate) {
+            return;
+        }
         let mut squares = vec![0.0; candidate.size];
         for (row, sim) in &rows {
             let block = model.change(problem, sim, *row, |s| candidate.block(s));

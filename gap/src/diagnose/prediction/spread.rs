@@ -1,12 +1,12 @@
 //! How well the numbers of a fit are known, and what is left of the readings beside them.
 
 use nalgebra::{DMatrix, Matrix6xX, Vector6};
-use rayon::prelude::*;
 
 use crate::diagnose::data::Problem;
 use crate::diagnose::fit::{Model, Predicted, block, squares};
 use crate::diagnose::search::{Explained, Search};
 use crate::infer::{Basis, Observations};
+use crate::parallel;
 
 /// Part by which a leverage changes with the arm that it is worked out for: the corrections themselves are
 /// some thousandths of what they correct.
@@ -87,7 +87,7 @@ impl Search<'_, '_> {
             let own = columns(self.problem, &now.fit.model, row);
             spread.leverage(&block.select_columns(&own), &numbers)
         };
-        let leverage = (0..self.problem.fits.len()).into_par_iter().map(of_row);
-        Spread { leverage: leverage.reduce(|| 0.0, f64::max), ..spread.clone() }
+        let leverage = parallel::map(self.problem.fits.len(), &of_row).into_iter();
+        Spread { leverage: leverage.fold(0.0, f64::max), ..spread.clone() }
     }
 }

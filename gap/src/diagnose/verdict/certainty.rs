@@ -2,13 +2,13 @@
 //! left out.
 
 use nalgebra::{DMatrix, DVector, Vector6};
-use rayon::prelude::*;
 
 use crate::diagnose::data::Problem;
 use crate::diagnose::fit::{Fit, Model, block, squares};
 use crate::diagnose::search::{Explained, Search};
 use crate::infer::constants::RIDGE;
 use crate::infer::{Basis, Observations, students_t};
+use crate::parallel;
 
 /// Visits that are left out one after the other; of more, visits that follow each other go together.
 const MOST_CLUSTERS: usize = 400;
@@ -62,18 +62,15 @@ impl Search<'_, '_> {
             (block, now.fit.predicted.gaps[row].component_mul(&weights))
         };
         let clusters = clusters(problem);
-        let sums: Vec<(DMatrix<f64>, DVector<f64>)> = clusters
-            .par_iter()
-            .map(|rows| {
-                let (mut own, mut score) =
-                    (DMatrix::zeros(parameters, parameters), DVector::zeros(parameters));
-                for (block, gap) in rows.iter().map(|row| weighted(*row)) {
-                    own.gemm_tr(1.0, &block, &block, 1.0);
-                    score.gemv_tr(1.0, &block, &gap, 1.0);
-                }
-                (own, score)
-            })
-            .collect();
+        let sums: Vec<(DMatrix<f64>, DVector<f64>)> = parallel::each(&clusters, &|rows| {
+            let (mut own, mut score) =
+                (DMatrix::zeros(parameters, parameters), DVector::zeros(parameters));
+            for (block, gap) in rows.iter().map(|row| weighted(*row)) {
+                own.gemm_tr(1.0, &block, &block, 1.0);
+                score.gemv_tr(1.0, &block, &gap, 1.0);
+            }
+            (own, score)
+        });
         let mut seen = DMatrix::zeros(parameters, parameters);
         sums.iter().for_each(|(own, _)| seen += own);
         let (mut normal, mut right) = (seen.clone(), DVector::zeros(parameters));
@@ -133,16 +130,12 @@ fn clusters(problem: &Problem<'_>) -> Vec<Vec<usize>> {
 /// Variance of each parameter by the jackknife: the fit without one cluster after the other.
 fn jackknife(basis: &Basis, sums: &[(DMatrix<f64>, DVector<f64>)]) -> DVector<f64> {
     let rank = basis.rank();
-    let moved: Vec<DVector<f64>> = sums
-        .par_iter()
-        .map(|(own, score)| {
-            let others =
-                DMatrix::identity(rank, rank) * (1.0 + RIDGE) - basis.t.tr_mul(own) * &basis.t;
-            let score = basis.t.tr_mul(score);
-            let moved = others.cholesky().map_or(DVector::zeros(rank), |root| root.solve(&score));
-            &basis.t * moved
-        })
-        .collect();
+    let moved: Vec<DVector<f64>> = parallel::each(sums, &|(own, score)| {
+        let others = DMatrix::identity(rank, rank) * (1.0 + RIDGE) - basis.t.tr_mul(own) * &basis.t;
+        let score = basis.t.tr_mul(score);
+        let moved = others.cholesky().map_or(DVector::zeros(rank), |root| root.solve(&score));
+        &basis.t * moved
+    });
     let count = moved.len() as f64;
     let mut sum = DVector::zeros(basis.t.nrows());
     moved.iter().for_each(|moved| sum += moved.component_mul(moved));

@@ -1,7 +1,6 @@
 //! What was found, put in order and held out: each row predicted by fits that have not seen it.
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn, Vector6};
-use rayon::prelude::*;
 
 use crate::diagnose::data::{Folds, Problem};
 use crate::diagnose::fit::{Bond, Fit, Model, block};
@@ -9,6 +8,7 @@ use crate::diagnose::options::DiagnoseError;
 use crate::diagnose::search::{Explained, Search};
 use crate::effects::At;
 use crate::infer::{Basis, Observations, Products, RANK, ordered};
+use crate::parallel;
 
 /// The effects of one finding: all forms of one effect at one place are one.
 pub(crate) type Group = Vec<usize>;
@@ -143,18 +143,18 @@ impl<'h> Held<'h> {
             }
             last
         };
-        let chunks = sizes.as_mut_slice().par_chunks_mut(CHUNK * values.len());
-        let parts =
-            chunks.zip(after.par_chunks_mut(CHUNK)).enumerate().map(|(k, (sizes, after))| {
-                let mut squares = DVector::zeros(values.len());
-                let each = after.iter_mut().zip(sizes.chunks_exact_mut(values.len())).enumerate();
-                each.for_each(|(row, (after, sizes))| {
-                    *after = of_row(CHUNK * k + row, sizes, &mut squares);
-                });
-                squares
+        let chunks = sizes.as_mut_slice().chunks_mut(CHUNK * values.len());
+        let chunks = chunks.zip(after.chunks_mut(CHUNK)).enumerate();
+        let mut parts: Vec<_> =
+            chunks.map(|(k, own)| (k, own, DVector::zeros(values.len()))).collect();
+        parallel::change(&mut parts, &|(k, (sizes, after), squares)| {
+            let each = after.iter_mut().zip(sizes.chunks_exact_mut(values.len())).enumerate();
+            each.for_each(|(row, (after, sizes))| {
+                *after = of_row(CHUNK * *k + row, sizes, squares);
             });
-        let parts: Vec<DVector<f64>> = parts.collect();
-        Shrinking { groups, sizes, squares: parts.iter().sum(), after }
+        });
+        let squares = parts.iter().map(|(_, _, squares)| squares).sum();
+        Shrinking { groups, sizes, squares, after }
     }
 
     /// The held-out gaps without any effect that was found.

@@ -2,10 +2,10 @@
 //! are fitted and once for those on which the gap is measured.
 
 use nalgebra::{DMatrix, DVector};
-use rayon::prelude::*;
 
 use super::outcome::{Group, Held};
 use crate::infer::{Products, drawn};
+use crate::parallel;
 
 /// Logarithms of the gap's root mean square in campaigns drawn from the poses of this one: before the
 /// first of some groups and after each, a row for each draw. The parameters are fitted to one such
@@ -18,7 +18,7 @@ impl Refitted {
             .map(|count| held.kept(&groups[..count].iter().collect::<Vec<_>>()))
             .collect();
         let draws = drawn(held.blocks.len(), seed);
-        let rows = draws.par_iter().map(|[fitted, measured]| {
+        let rows = parallel::each(&draws, &|[fitted, measured]| {
             let sum = |times: &[f64], which: usize| {
                 let mut sum = Products::zeros(held.parameters(), &[]);
                 let several = held.blocks.iter().zip(times).filter(|(_, times)| **times > 0.0);
@@ -32,7 +32,7 @@ impl Refitted {
             let logs = steps.iter().map(|kept| 0.5 * left(kept).ln());
             DVector::from_iterator(steps.len(), logs).transpose()
         });
-        Self(DMatrix::from_rows(&rows.collect::<Vec<_>>()))
+        Self(DMatrix::from_rows(&rows))
     }
 
     /// Standard deviation of the logarithm of the gap after step `to` over that after step `from`, of

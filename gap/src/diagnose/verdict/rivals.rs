@@ -1,14 +1,13 @@
 //! What else could explain what a finding explains: every candidate in its place, beside all the
 //! others.
 
-use rayon::prelude::*;
-
 use super::outcome::Group;
 use crate::diagnose::normal_equations::{Candidate, Kept, Screen};
 use crate::diagnose::options::DiagnoseError;
 use crate::diagnose::search::{Explained, Search};
 use crate::infer::constants::{DISTINGUISHABLE, WEAK};
 use crate::infer::{Observations, Ranked, Score, SignFlips, costs};
+use crate::parallel;
 use crate::report::{Alternative, Left};
 
 /// The explained gap with other explanations in a finding's place.
@@ -56,7 +55,7 @@ impl Search<'_, '_> {
                 rivals.push(one);
             }
         }
-        let judged = rivals.par_iter().filter_map(|one| {
+        let judged = parallel::each(&rivals, &|one| {
             let candidate = &screen.candidates[one.candidate];
             let (effect, spot) = candidate.effect()?;
             let evidence = (screen.left() - one.score.drop) / variance + one.cost - own;
@@ -75,7 +74,8 @@ impl Search<'_, '_> {
             let values = one.score.values.iter().copied().collect();
             Some((alternative, (candidate.clone(), values)))
         });
-        let judged: Vec<(Alternative, (Candidate, Vec<f64>))> = judged.collect();
+        let judged: Vec<(Alternative, (Candidate, Vec<f64>))> =
+            judged.into_iter().flatten().collect();
         let nearest = judged.iter().find(|(rival, _)| !rival.separable()).map(|(_, it)| it.clone());
         let mut alternatives: Vec<Alternative> =
             judged.into_iter().map(|(rival, _)| rival).collect();

@@ -2,12 +2,12 @@
 //! much less is known of the others for it.
 
 use nalgebra::{DMatrix, Matrix6xX};
-use rayon::prelude::*;
 
 use crate::diagnose::fit::{Fitted, block, squares};
 use crate::diagnose::search::{Explained, Search};
 use crate::effects::{Forms, Quantity, Scene, Spot};
 use crate::infer::{Basis, Observations, students_t};
+use crate::parallel;
 
 /// Rows whose products are added up by one thread.
 const CHUNK: usize = 256;
@@ -71,10 +71,11 @@ impl Search<'_, '_> {
             products
         };
         let none = || DMatrix::zeros(count, fitted + count);
-        let sum = |chunk: &[usize]| chunk.iter().fold(none(), |sum, row| sum + products(*row));
+        let sum = |chunk: &&[usize]| chunk.iter().fold(none(), |sum, row| sum + products(*row));
         // Added up in their order: the bits do not depend on the number of threads.
         let rows: Vec<usize> = (0..problem.data.rows.len()).collect();
-        let parts: Vec<DMatrix<f64>> = rows.par_chunks(CHUNK).map(sum).collect();
+        let chunks: Vec<&[usize]> = rows.chunks(CHUNK).collect();
+        let parts = parallel::each(&chunks, &sum);
         let sums = parts.iter().fold(none(), |sum, part| sum + part);
         let mut all = normal.resize(fitted + count, fitted + count, 0.0);
         all.rows_mut(fitted, count).copy_from(&sums);

@@ -2,12 +2,12 @@
 //! are there (Meinshausen & Bühlmann 2010).
 
 use nalgebra::{DMatrix, DVector};
-use rayon::prelude::*;
 
 use crate::diagnose::normal_equations::Screen;
 use crate::diagnose::search::{Explained, Search};
 use crate::infer::constants::OWN;
 use crate::infer::{Basis, Observations, Own, Products, Scale};
+use crate::parallel;
 use crate::rng::{Rng, Stream};
 
 /// Random halves.
@@ -36,14 +36,15 @@ impl Search<'_, '_> {
         let contenders: Vec<usize> = contenders.iter().copied().take(CONTENDERS).collect();
         let mut generator = Rng::new(self.options.seed, Stream::Halves);
         let halves: Vec<Vec<usize>> = (0..HALVES).map(|_| generator.order(blocks)).collect();
-        let found_again = |order: &&Vec<usize>| {
+        let found_again = |order: &Vec<usize>| {
             let half: Vec<&Products> =
                 order.iter().take(blocks / 2).map(|b| &screen.blocks[*b]).collect();
             let costs = self.costs(screen, &half, &contenders, now);
             let best = costs.into_iter().min_by(|a, b| a.1.total_cmp(&b.1));
             best.is_some_and(|(candidate, _)| is_it(candidate))
         };
-        halves.par_iter().filter(found_again).count() as f64 / HALVES as f64
+        let again = parallel::each(&halves, &found_again);
+        again.iter().filter(|again| **again).count() as f64 / HALVES as f64
     }
 
     /// Cost of each contender on some of the blocks, at the noise of all.

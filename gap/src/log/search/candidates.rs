@@ -1,7 +1,6 @@
 //! What could be added to a model: its evidence, its held-out squares, and how likely chance is to do as well.
 
 use nalgebra::{DMatrix, DVector};
-use rayon::prelude::*;
 
 use super::blocks::Blocks;
 use super::dictionary::Entry;
@@ -10,6 +9,7 @@ use super::fit::Term;
 use super::normal_equations::Sums;
 use super::{LOOSE, Search};
 use crate::infer::{Basis, Columns, Observations, Products, Ranked, Screen, Signs, unit};
+use crate::parallel;
 
 /// So many of the candidates that have most evidence are held out; the others have less.
 const HELD_OUT: usize = 24;
@@ -151,12 +151,14 @@ impl<'s> Search<'s, '_> {
             let (seen, drop) = (score.rank > 0, score.drop);
             (at, Candidate { term, squares: squares.clone(), seen, drop, gain })
         };
-        let mut candidates: Vec<(usize, Candidate)> = ranges.par_iter().map(best).collect();
+        let mut candidates: Vec<(usize, Candidate)> = parallel::each(&ranges, &best);
         let mut gains: Vec<f64> = candidates.iter().map(|(_, c)| c.gain).collect();
         gains.sort_by(|a, b| b.total_cmp(a));
         let least = gains.get(HELD_OUT).copied().unwrap_or(f64::NEG_INFINITY);
-        candidates.par_iter_mut().filter(|(_, c)| c.gain > least).for_each(|(at, candidate)| {
-            candidate.squares = screen.held_out_by_block(&trained, Some(*at));
+        parallel::change(&mut candidates, &|(at, candidate)| {
+            if candidate.gain > least {
+                candidate.squares = screen.held_out_by_block(&trained, Some(*at));
+            }
         });
         let p_values = p_values(&screen, &ranges, self.seed);
         let candidates = candidates.into_iter().map(|(_, candidate)| candidate).collect();
@@ -172,10 +174,8 @@ fn p_values(
     seed: u64,
 ) -> Vec<f64> {
     let left = screen.left_by_block();
-    let shares: Vec<DMatrix<f64>> = (0..screen.candidates.len())
-        .into_par_iter()
-        .map(|c| unit(&screen.shares(c, &left)))
-        .collect();
+    let own = |c: usize| unit(&screen.shares(c, &left));
+    let shares: Vec<DMatrix<f64>> = parallel::map(screen.candidates.len(), &own);
     let signs = Signs::new(screen.blocks.len(), seed);
     let highest = signs.largest(&shares.iter().collect::<Vec<_>>());
     let found = |range: &core::ops::Range<usize>| {

@@ -9,7 +9,6 @@ use core::ops::Range;
 use std::sync::Arc;
 
 use nalgebra::DMatrix;
-use rayon::prelude::*;
 
 use super::blocks::{Block, Blocks};
 use super::case::{Case, Simple, Wanted};
@@ -20,6 +19,7 @@ use crate::infer::correlation_time;
 use crate::log::effects::{LATE, LogEffect, Spot};
 use crate::log::scene::Domain;
 use crate::log::signal::Signals;
+use crate::parallel;
 
 /// Rows that are kept, about.
 const SAMPLE: usize = 20_000;
@@ -128,10 +128,9 @@ impl<'a> Dictionary<'a> {
         let all = stretches(&segments, signals);
         let every = signals.rows().div_ceil(SAMPLE);
         let went: Vec<&Stretch> = all.iter().step_by(thinned).collect();
-        let brought: Vec<Vec<Brought>> = went
-            .par_iter()
-            .map(|stretch| bring(case, simple, wanted, stretch, &segments, &counts, every))
-            .collect();
+        let brought: Vec<Vec<Brought>> = parallel::each(&went, &|stretch| {
+            bring(case, simple, wanted, stretch, &segments, &counts, every)
+        });
         let base = case.base.map_or(0, |base| base.columns.len());
         let (offers, target) = offers(case, wanted, base);
         let of = |stretch: &&Stretch| stretch.rows.clone();
@@ -256,7 +255,7 @@ impl<'a> Dictionary<'a> {
             // A joint without rows has no size: it is told in one.
             if sum > 0.0 { (sum / self.used[joint]).sqrt() } else { 1.0 }
         };
-        (0..self.joints.len()).into_par_iter().map(size).collect()
+        parallel::map(self.joints.len(), &size)
     }
 
     /// What columns with these values are at the rows of the sample, of each joint; a hole where a row
@@ -280,7 +279,7 @@ impl<'a> Dictionary<'a> {
             let counts = self.rows.iter().map(|row| self.counts[joint][*row]);
             sum.into_iter().zip(counts).map(|(x, counts)| counts.then_some(x)).collect()
         };
-        self.joints.par_iter().enumerate().map(|(k, own)| joint((k, own))).collect()
+        parallel::map(self.joints.len(), &|k| joint((k, &self.joints[k])))
     }
 
     fn segment_of(&self, row: usize) -> usize {

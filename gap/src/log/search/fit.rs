@@ -1,12 +1,12 @@
 //! A model of a log, fitted: what the rigid links ask, and effects at their places.
 
 use nalgebra::DMatrix;
-use rayon::prelude::*;
 
 use super::dictionary::{Dictionary, Entry, Mixed};
 use super::normal_equations::sum;
 use crate::infer::Basis;
 use crate::log::effects::{LogEffect, Spot};
+use crate::parallel;
 
 /// An effect at a place, with its values.
 #[derive(Clone)]
@@ -142,7 +142,7 @@ impl Fitted {
 
     /// The correlation time of what is left, of each joint, s.
     pub fn correlation(&self, dict: &Dictionary<'_>) -> Vec<f64> {
-        self.sampled(dict).par_iter().map(|rows| dict.correlation(rows)).collect()
+        parallel::each(&self.sampled(dict), &|rows| dict.correlation(rows))
     }
 }
 

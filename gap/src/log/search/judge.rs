@@ -1,7 +1,5 @@
 //! What the findings are worth: whether each is more than accident beside the others, and what else would do.
 
-use rayon::prelude::*;
-
 use super::along::is_along;
 use super::blocks::Blocks;
 use super::candidates::{Asked, Candidate};
@@ -13,6 +11,7 @@ use super::{Search, is_worse};
 use crate::effects::Place;
 use crate::infer::constants::{DISTINGUISHABLE, SIGNIFICANT};
 use crate::log::effects::{LINKS, SCALE, Spot};
+use crate::parallel;
 
 /// What does as well as a finding may miss by a hair to be more than accident by itself: of a rival is asked only that
 /// the best of unrelated things does not usually do as much.
@@ -79,8 +78,8 @@ impl Search<'_, '_> {
             let blocks = self.dict.blocks(longest);
             let sums = self.dict.sums(&blocks);
             let divided = (&blocks, &sums);
-            let each = (0..now.fit.terms.len()).into_par_iter();
-            let all: Vec<Judged> = each.map(|k| self.judge(&now, k, divided)).collect();
+            let judged = |k: usize| self.judge(&now, k, divided);
+            let all: Vec<Judged> = parallel::map(now.fit.terms.len(), &judged);
             let wrong = |j: &Judged| !self.dict.case.is_feasible(&j.term);
             let is_idle = |j: &Judged| j.p_value > SIGNIFICANT || !j.shrinks;
             let doubted =

@@ -1,12 +1,11 @@
 //! The search itself, held out: run again on all blocks but one fold's, for each.
 
-use rayon::prelude::*;
-
 use super::Search;
 use super::blocks::Blocks;
 use super::dictionary::Dictionary;
 use super::fit::Links;
 use super::normal_equations::quadratic;
+use crate::parallel;
 
 /// Root mean square that is left of each joint by what a search finds that has not seen a fold, over all
 /// folds; 0 of a joint that has no rows.
@@ -27,7 +26,7 @@ pub fn nested(dict: &Dictionary<'_>, blocks: &Blocks, links: &Links, seed: u64) 
         };
         (0..joints).map(left).collect()
     };
-    let squares: Vec<Vec<f64>> = (0..blocks.folds).into_par_iter().map(of_fold).collect();
+    let squares: Vec<Vec<f64>> = parallel::map(blocks.folds, &of_fold);
     let size = |joint: usize| {
         let rows: f64 = dict.rows_of(blocks, joint).iter().sum();
         let sum: f64 = squares.iter().map(|fold| fold[joint]).sum();

@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
-use rayon::prelude::*;
 
 use super::dictionary::{Entry, Mixed};
 use crate::infer::Products;
+use crate::parallel;
 
 /// Products of the stored columns of each joint, block by block.
 #[derive(Clone, Debug, Default)]
@@ -60,7 +60,7 @@ impl Sums {
             let all = columns(entry);
             (self.products(bordered, &all, weights), self.squares(&all, weights))
         };
-        let each: Vec<_> = entries.par_iter().map(beside).collect();
+        let each = parallel::each(entries, &beside);
         let sizes: Vec<usize> = entries.iter().map(|entry| columns(entry).len()).collect();
         let of_block = |(block, own): (usize, &DMatrix<f64>)| {
             let mut products = Products::zeros(last, &sizes);

@@ -1,7 +1,6 @@
 //! Findings in the order in which they shrink the held-out error most, and what is left after each.
 
 use nalgebra::{DMatrix, DVector};
-use rayon::prelude::*;
 
 use super::Search;
 use super::dictionary::Mixed;
@@ -9,6 +8,7 @@ use super::fit::{Fitted, weights};
 use super::judge::Verdict;
 use super::normal_equations::quadratic;
 use crate::infer::{Basis, ordered};
+use crate::parallel;
 
 /// Products of all columns of a model, from which any of its terms may be left out.
 struct Parts {
@@ -64,12 +64,12 @@ impl Search<'_, '_> {
         let told = folds(sums.squares(&columns, &weights(&verdict.now.sizes)));
         let whole = told.iter().fold(DMatrix::zeros(count, count), |sum, fold| sum + fold);
         let joints = verdict.now.sizes.len();
-        let own = (0..joints).into_par_iter().map(|joint| {
+        let own = parallel::map(joints, &|joint| {
             let rows = self.dict.rows_of(blocks, joint).iter().sum();
             (folds(sums.squares_of(joint, &columns)), rows)
         });
         let others = told.iter().map(|fold| &whole - fold).collect();
-        Parts { links, terms, others, own: own.collect() }
+        Parts { links, terms, others, own }
     }
 }
 

@@ -7,12 +7,12 @@
 use core::f64::consts::PI;
 
 use nalgebra::DMatrix;
-use rayon::prelude::*;
 use stiffarm_kernels::Motion;
 
 use super::dictionary::Dictionary;
 use crate::infer::{Signs, unit};
 use crate::log::pace::{ORDERS, PASSES};
+use crate::parallel;
 
 /// How often one stands out by accident in a log, over all joints: it is then likely to be named, and comes on top of
 /// the findings' own 0.05.
@@ -23,11 +23,10 @@ const MOST: usize = 2;
 
 /// Of each joint the orders that stand out of what is left at the rows of the sample.
 pub fn found(dict: &Dictionary<'_>, left: &[Vec<Option<f64>>], seed: u64) -> Vec<Vec<f64>> {
-    let joint = |(joint, left): (usize, &Vec<Option<f64>>)| {
+    parallel::map(left.len(), &|joint| {
         let turns = dict.case.arm.joints[joint].motion == Motion::Revolute;
-        if turns { of_joint(dict, joint, left, seed) } else { Vec::new() }
-    };
-    left.par_iter().enumerate().map(joint).collect()
+        if turns { of_joint(dict, joint, &left[joint], seed) } else { Vec::new() }
+    })
 }
 
 fn of_joint(dict: &Dictionary<'_>, joint: usize, left: &[Option<f64>], seed: u64) -> Vec<f64> {

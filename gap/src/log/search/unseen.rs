@@ -2,13 +2,13 @@
 //! it leaves scatters from one log to another.
 
 use nalgebra::{DMatrix, DVector};
-use rayon::prelude::*;
 
 use super::blocks::Blocks;
 use super::dictionary::Dictionary;
 use super::fit::{Fitted, minimum, weights};
 use super::normal_equations::{quadratic, sum};
 use crate::infer::{Basis, drawn, students_t};
+use crate::parallel;
 
 /// What a fit leaves of rows that its values have not seen, and 95 % intervals of its values.
 pub struct Unseen {
@@ -58,7 +58,7 @@ impl Unseen {
                 whole: sum(own.iter()).unwrap_or_default(),
             }
         };
-        let joints: Vec<Joint> = (0..count).into_par_iter().map(of_joint).collect();
+        let joints: Vec<Joint> = parallel::map(count, &of_joint);
         let once = vec![1.0; blocks.all.len()];
         Unseen {
             sizes: joints.iter().map(|joint| joint.mean(&once).unwrap_or(0.0).sqrt()).collect(),
@@ -82,7 +82,7 @@ impl Unseen {
             let left = |of: &Unseen| of.left(fitted, measured, sizes).max(f64::MIN_POSITIVE).ln();
             left(self) - left(before)
         };
-        let logs: Vec<f64> = drawn(self.products.len(), seed).par_iter().map(log).collect();
+        let logs: Vec<f64> = parallel::each(&drawn(self.products.len(), seed), &log);
         (2.0 * DVector::from_vec(logs).variance()).sqrt()
     }
 
@@ -127,7 +127,7 @@ fn covariance(products: &[DMatrix<f64>], values: &[f64]) -> DMatrix<f64> {
         let t = Basis::ordered(&others).t;
         &t * t.tr_mul(&(product.rows(0, n) * &left))
     };
-    let changes: Vec<_> = products.par_iter().map(change).collect();
+    let changes = parallel::each(products, &change);
     let changes = DMatrix::from_columns(&changes);
     &changes * changes.transpose() * ((count - 1.0) / count)
 }

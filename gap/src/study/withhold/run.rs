@@ -2,10 +2,9 @@
 
 use core::sync::atomic::{AtomicUsize, Ordering};
 
-use rayon::prelude::*;
-
 use super::report::{Case, Named, Report};
 use super::{Experiment, Kind, Plan, WithholdError, campaign, motion, summary};
+use crate::parallel;
 use crate::rng::{Rng, Stream, seed_of};
 
 /// A plant with the diagnosis that gets its data.
@@ -91,8 +90,8 @@ fn run<B: Bench>(
         progress(1 + done.fetch_add(1, Ordering::Relaxed), plan.cases);
         case
     };
-    let cases: Vec<Case> =
-        pool.install(|| (0..plan.cases).into_par_iter().map(one).collect::<Result<_, _>>())?;
+    let cases = pool.install(|| parallel::map(plan.cases, &one));
+    let cases: Vec<Case> = cases.into_iter().collect::<Result<_, _>>()?;
     let first = cases.iter().find_map(|case| case.error.clone());
     match first.filter(|_| cases.iter().all(|case| case.verdict.is_none())) {
         Some(reason) => Err(WithholdError::Diagnose(reason)),

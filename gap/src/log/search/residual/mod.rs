@@ -9,7 +9,6 @@ mod predicted;
 mod quantity;
 
 use nalgebra::DMatrix;
-use rayon::prelude::*;
 
 use super::blocks::Blocks;
 use super::dictionary::Dictionary;
@@ -17,6 +16,7 @@ use super::judge::Verdict;
 use crate::effects::Spot;
 use crate::infer::constants::SIGNIFICANT;
 use crate::infer::{Signs, deviate};
+use crate::parallel;
 use crate::report::log::Dependence;
 use predicted::predicted;
 use quantity::{Of, Parts};
@@ -75,16 +75,15 @@ pub fn dependences(dict: &Dictionary<'_>, verdict: &Verdict, seed: u64) -> Vec<D
     }
     // What depends on something slow is autocorrelated, and few blocks tell nothing. What other times predict of it
     // is no chance: the blocks are as long as the correlation of the residual beside that asks for.
-    let (beside, by): (Left, Vec<Vec<Of>>) = (0..left.len())
-        .into_par_iter()
-        .map(|joint| {
-            let own: Vec<&Parts> =
-                all.iter().filter(|parts| parts.joint == joint && !parts.of.is_fine()).collect();
-            predicted(dict, &left[joint], &own, &verdict.blocks)
-        })
-        .unzip();
-    let correlation = beside.par_iter().map(|rows| dict.correlation(rows));
-    let longest = correlation.reduce(|| 0.0, f64::max);
+    let of_joint = |joint: usize| {
+        let own: Vec<&Parts> =
+            all.iter().filter(|parts| parts.joint == joint && !parts.of.is_fine()).collect();
+        predicted(dict, &left[joint], &own, &verdict.blocks)
+    };
+    let (beside, by): (Left, Vec<Vec<Of>>) =
+        parallel::map(left.len(), &of_joint).into_iter().unzip();
+    let correlation = parallel::each(&beside, &|rows| dict.correlation(rows));
+    let longest = correlation.into_iter().fold(0.0, f64::max);
     let blocks = dict.blocks(longest);
     if blocks.all.len() <= verdict.blocks.all.len() {
         return Vec::new();
@@ -101,8 +100,8 @@ fn beyond_chance(
     seed: u64,
     counts: impl Fn(usize, Of) -> bool,
 ) -> Vec<Dependence> {
-    let sorted = all.par_iter().filter_map(|parts| sorted(dict, &left[parts.joint], parts, blocks));
-    let all: Vec<Sorted> = sorted.collect();
+    let sorted = |parts: &Parts| sorted(dict, &left[parts.joint], parts, blocks);
+    let all: Vec<Sorted> = parallel::each(all, &sorted).into_iter().flatten().collect();
     let count = blocks.all.len();
     let signs = Signs::new(count, seed);
     let mut highest = vec![f64::NEG_INFINITY; signs.patterns.ncols()];

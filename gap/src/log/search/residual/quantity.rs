@@ -1,12 +1,12 @@
 //! On what a residual may depend: rows sorted by a quantity into parts of equally many.
 
 use nalgebra::Vector3;
-use rayon::prelude::*;
 use stiffarm_kernels::generic::Arm;
 
 use super::super::dictionary::{Dictionary, Mixed};
 use super::super::fit::Fitted;
 use crate::log::scene::Domain;
+use crate::parallel;
 
 /// Parts into which a quantity is divided.
 pub(super) const PARTS: usize = 8;
@@ -183,5 +183,6 @@ pub(super) fn all(dict: &Dictionary<'_>, fit: &Fitted, left: &[Vec<Option<f64>>]
     };
     let joints = left.len();
     let asked = (0..joints).flat_map(|joint| Of::all(joints).map(move |of| (joint, of)));
-    asked.collect::<Vec<_>>().into_par_iter().filter_map(sorted).collect()
+    let sorted = parallel::each(&asked.collect::<Vec<_>>(), &|asked| sorted(*asked));
+    sorted.into_iter().flatten().collect()
 }

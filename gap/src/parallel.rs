@@ -1,0 +1,57 @@
+//! Work on all cores, with results in their order.
+//!
+//! rayon is asked at one place, for work whose type is erased: each further place would compile rayon's plumbing anew.
+
+use std::sync::{Mutex, PoisonError};
+
+use rayon::prelude::*;
+
+/// Very many results are made in so many parts, which the cores take one after the other.
+const PARTS: usize = 1024;
+
+/// `of` each number below `count`.
+pub(crate) fn map<T: Send>(count: usize, of: &(dyn Fn(usize) -> T + Sync)) -> Vec<T> {
+    let length = count.div_ceil(PARTS).max(1);
+    let parts: Vec<Mutex<Vec<T>>> = (0..count.div_ceil(length)).map(|_| Mutex::default()).collect();
+    all(parts.len(), &|part| {
+        let own: Vec<T> = (length * part..count.min(length * (part + 1))).map(of).collect();
+        *parts[part].lock().unwrap_or_else(PoisonError::into_inner) = own;
+    });
+    let mut all = Vec::with_capacity(count);
+    for part in parts {
+        all.append(&mut part.into_inner().unwrap_or_else(PoisonError::into_inner));
+    }
+    all
+}
+
+/// `of` each item.
+pub(crate) fn each<I: Sync, T: Send>(items: &[I], of: &(dyn Fn(&I) -> T + Sync)) -> Vec<T> {
+    map(items.len(), &|k| of(&items[k]))
+}
+
+/// Changes each item where it stands.
+pub(crate) fn change<I: Send>(items: &mut [I], of: &(dyn Fn(&mut I) + Sync)) {
+    let items: Vec<Mutex<&mut I>> = items.iter_mut().map(Mutex::new).collect();
+    all(items.len(), &|k| of(&mut items[k].lock().unwrap_or_else(PoisonError::into_inner)));
+}
+
+fn all(count: usize, of: &(dyn Fn(usize) + Sync)) {
+    (0..count).into_par_iter().for_each(of);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn results_are_in_their_order() {
+        for count in [0, 1, PARTS, PARTS + 1, 5 * PARTS + 3] {
+            let squares: Vec<usize> = (0..count).map(|k| k * k).collect();
+            assert_eq!(map(count, &|k| k * k), squares);
+            let mut roots: Vec<usize> = (0..count).collect();
+            assert_eq!(each(&roots, &|k| k * k), squares);
+            change(&mut roots, &|k| *k *= *k);
+            assert_eq!(roots, squares);
+        }
+    }
+}
