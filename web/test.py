@@ -58,6 +58,10 @@ class Page:
         # Its columns are read by a command.
         self.browser.wait("!at('columns').hidden || at('state').textContent")
 
+    def bench(self, path):
+        self.browser.files("#bench-file", path)
+        self.browser.wait(f"chosen.bench?.name === {path.name!r}")
+
     def diagnose(self, options="", patience=300):
         self.browser.evaluate(f"at('options').value = {options!r}; at('state').textContent = ''; at('diagnose').focus()")
         begun = time.monotonic()
@@ -115,15 +119,18 @@ def robots(got, told):
             yield f"the robot file: {ours} for {theirs}"
 
 
-def same(page, folder, robot, data, options=""):
+def same(page, folder, robot, data, options="", bench=None):
     """The page and the command write the same JSON and robot file; returns both times."""
     page.fresh()
     page.robot(robot)
     page.data(data)
+    if bench:
+        page.bench(bench)
     seconds = page.diagnose(options)
     assert page.state().startswith("Done"), page.state()
     name = robot.name if isinstance(robot, Path) else robot
     words = ["diagnose", name, data.name, *options.split(), "--json", "json", "--write-robot", "robot"]
+    words += ["--bench", bench.name] if bench else []
     _, spent = command(words, folder)
     told, got = (folder / "json").read_text(), page.written("<json")
     found = list(differences(json.loads(got), json.loads(told)))
@@ -187,6 +194,20 @@ def main():
         same(page, folder, folder / "kr240.urdf", folder / "urdf.csv")
         command(["simulate", "panda", "--log", "log.csv", "--runs", "1", "--effect", "coulomb_friction@joint 1=5"], folder)
         same(page, folder, "panda", folder / "log.csv", "--torque-side motor")
+
+        # Sockets whose distance a bench file says; a file that is none is refused.
+        words = ["simulate", "irb120", "--measure", "point", "--poses", "24", "--payload", "0kg"]
+        command([*words, "--effect", "joint_offset@joint 3=4e-3", "--csv", "sockets.csv"], folder)
+        pair = '[[pair]]\npoints = ["socket 0.1", "socket 0.2"]\ndistance = "1 m"\nsigma = "1 m"\n'
+        (folder / "bench.toml").write_text(pair)
+        same(page, folder, "irb120", folder / "sockets.csv", bench=folder / "bench.toml")
+        assert "--bench bench.toml" in browser.evaluate("at('command').textContent")
+        browser.evaluate("at('no-bench').click()")
+        browser.wait("!chosen.bench && at('no-bench').hidden")
+        (folder / "bench.toml").write_text('[[socket]]\nname = "a"\n')
+        page.bench(folder / "bench.toml")
+        page.diagnose()
+        assert "found no bench" in page.state(), page.state()
 
         # A table of another program: a changed column becomes a map.
         page.fresh()

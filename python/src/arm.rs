@@ -8,6 +8,7 @@ use nalgebra::Vector6;
 use numpy::{PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
+use pyo3::types::PyTuple;
 use stiffarm_cli::host::Host;
 use stiffarm_cli::{RobotArgs, Source};
 use stiffarm_codegen::derive::Given;
@@ -17,9 +18,9 @@ use stiffarm_kernels::batch::{self, Wrenches};
 use stiffarm_kernels::generic::Joint;
 use stiffarm_kernels::{Input, Output, Side};
 
-use crate::arrays::{self, Numbers, Shape, lead, numbers, shape};
+use crate::arrays::{self, Numbers, Shape, Values, lead, numbers, shape};
 use crate::compiled::{self, Library};
-use crate::engine::{Engines, Poses};
+use crate::engine::{Engine, Engines, Poses};
 use crate::inverse::{Found, Inverse};
 use crate::work::{self, Unstable};
 
@@ -177,9 +178,13 @@ impl Arm {
         frames.chain(robot.markers.iter().map(|marker| marker.name.as_str())).collect()
     }
 
-    /// What computes an output, of the tool or at a frame or marker: kernels, c, textbook or graph.
+    /// What computes an output or `inverse_kinematics`, of the tool or at a frame or marker: kernels, c, textbook or graph.
     #[pyo3(signature = (output, at=None))]
     fn engine(&self, output: &str, at: Option<String>) -> PyResult<&'static str> {
+        if output == compiled::INVERSE[0] && at.is_none() {
+            let is_c = self.engines.library().is_some_and(Library::has_inverse);
+            return Ok(if is_c { Engine::Compiled } else { Engine::Graph }.name());
+        }
         Ok(self.engines.of(&self.asked(output, at)?).name())
     }
 
@@ -224,7 +229,9 @@ impl Arm {
             Ok(inverse)
         };
         let inverse = py.detach(found).map_err(PyValueError::new_err)?;
-        inverse.found(py, pose, near, (wrench, &given))
+        // C has what is given of seven joints by the robot file, and no other.
+        let library = self.engines.library().filter(|_| kept.is_none());
+        inverse.found(py, pose, near, (wrench, &given), library)
     }
 
     /// An output at one pose or many.
@@ -237,7 +244,7 @@ impl Arm {
         &self,
         py: Python<'py>,
         output: &str,
-        inputs: Vec<Bound<'py, PyAny>>,
+        inputs: &Bound<'py, PyAny>,
         wrench: Option<&Bound<'py, PyAny>>,
         out: Option<&Bound<'py, PyAny>>,
         sides: Option<&Bound<'py, PyAny>>,
@@ -247,6 +254,10 @@ impl Arm {
         let (asked, n) = (self.asked(output, at)?, self.dof());
         let output = asked.output;
         let given = self.given_beside(py, sides, warming)?;
+        let inputs: Vec<Bound<'py, PyAny>> = match inputs.cast::<PyTuple>() {
+            Ok(tuple) => tuple.iter().collect(),
+            Err(_) => inputs.extract()?,
+        };
         let joints = output.inputs().iter().filter(|input| input.side() == Side::Joints);
         let mut all: Vec<(Vec<usize>, Numbers<'py>)> = Vec::with_capacity(4);
         let mut single = true;
@@ -273,10 +284,8 @@ impl Arm {
         };
         let dimensions = self::common(all.iter().chain(&wrench).map(|(lead, _)| lead))?;
         let count: usize = dimensions.iter().product();
-        let read: Vec<_> =
-            all.iter().map(|(_, array)| array.try_readonly()).collect::<Result<_, _>>()?;
-        let parts: Vec<&[f64]> =
-            read.iter().map(|part| part.as_slice()).collect::<Result<_, _>>()?;
+        let read = all.iter().map(|(_, array)| Values::of(array)).collect::<PyResult<Vec<_>>>()?;
+        let parts = read.iter().map(Values::numbers).collect::<PyResult<Vec<&[f64]>>>()?;
         let whole = matches!(parts[..], [one] if one.len() == count * n);
         let joined = if whole { Vec::new() } else { join(&parts, count, n) };
         let states = if whole { parts[0] } else { &joined[..] };
@@ -285,8 +294,8 @@ impl Arm {
         let missing = if is_batch { missing(states, per_pose) } else { Vec::new() };
         let filled = filled(states, per_pose, &missing);
         let states = if missing.is_empty() { states } else { &filled[..] };
-        let loads = wrench.as_ref().map(|(_, array)| array.try_readonly()).transpose()?;
-        let loads = loads.as_ref().map(|part| part.as_slice()).transpose()?;
+        let loads = wrench.as_ref().map(|(_, array)| Values::of(array)).transpose()?;
+        let loads = loads.as_ref().map(Values::numbers).transpose()?;
         let none = [0.0; 6];
         let wrenches = match loads {
             None => Wrenches::One(&none),

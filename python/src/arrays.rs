@@ -1,8 +1,9 @@
 //! NumPy's arrays in and out: what is read without a copy where it lies well, and where results go.
 
-use numpy::ndarray::{ArrayViewD, IxDyn};
+use numpy::ndarray::{ArrayViewD, IxDyn, ShapeBuilder};
 use numpy::{
-    PyArrayDescrMethods, PyArrayDyn, PyArrayMethods, PyUntypedArray, PyUntypedArrayMethods,
+    PyArrayDescrMethods, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArray,
+    PyUntypedArrayMethods, ToPyArray,
 };
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::intern;
@@ -31,6 +32,29 @@ pub fn numbers<'py>(name: &str, given: &Bound<'py, PyAny>) -> PyResult<(Numbers<
     }
     let doubles = numpy.call_method1(intern!(py, "ascontiguousarray"), (array, "f8"))?;
     Ok((doubles.cast_into::<PyArrayDyn<f64>>()?, single))
+}
+
+/// What stands in an array, as long as it is worked with: of one pose a copy, which takes less time than NumPy's book of
+/// who reads what.
+pub enum Values<'py> {
+    Copied(Vec<f64>),
+    Read(PyReadonlyArrayDyn<'py, f64>),
+}
+
+impl<'py> Values<'py> {
+    pub fn of(array: &Numbers<'py>) -> PyResult<Values<'py>> {
+        Ok(match array.ndim() {
+            1 => Values::Copied(array.to_vec()?),
+            _ => Values::Read(array.try_readonly()?),
+        })
+    }
+
+    pub fn numbers(&self) -> PyResult<&[f64]> {
+        Ok(match self {
+            Values::Copied(values) => values,
+            Values::Read(array) => array.as_slice()?,
+        })
+    }
 }
 
 /// The dimensions before the last, which is to be `size`.
@@ -127,6 +151,9 @@ impl Shape {
         out: Option<&Bound<'py, PyAny>>,
         fill: impl FnOnce(&mut [f64]) -> PyResult<Option<PyErr>>,
     ) -> PyResult<(Numbers<'py>, Option<PyErr>)> {
+        if lead.is_empty() && out.is_none() && !(self.swapped && self.written.len() > 2) {
+            return self.one(py, size, fill);
+        }
         let written = [lead, &self.written].concat();
         let mut axes: Vec<usize> = (0..written.len()).collect();
         if self.swapped {
@@ -164,6 +191,29 @@ impl Shape {
         };
         drop(target);
         Ok((array, raised))
+    }
+
+    /// A new array of one pose: one allocation by NumPy, where a call costs more than what it computes.
+    fn one<'py>(
+        &self,
+        py: Python<'py>,
+        size: usize,
+        fill: impl FnOnce(&mut [f64]) -> PyResult<Option<PyErr>>,
+    ) -> PyResult<(Numbers<'py>, Option<PyErr>)> {
+        let mut block = vec![0.0; size];
+        let raised = fill(&mut block)?;
+        if self.homogeneous {
+            block = homogeneous(&block);
+        }
+        // A matrix that is written column by column lies in Fortran's order.
+        let view = match self.written[..] {
+            [columns, rows] if self.swapped => {
+                ArrayViewD::from_shape(IxDyn(&[rows, columns]).f(), &block)
+            }
+            _ => ArrayViewD::from_shape(IxDyn(&self.written), &block),
+        };
+        let view = view.map_err(|error| PyValueError::new_err(error.to_string()))?;
+        Ok((view.to_pyarray(py), raised))
     }
 }
 

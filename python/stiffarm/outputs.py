@@ -45,7 +45,7 @@ class Outputs:
         q: joint values, base to tip, in rad (prismatic joint: m).
         Result: (4, 4), in m (axes: 1).
         """
-        return self.evaluate("pose", [q], None, out, sides, warming, at)
+        return self.evaluate("pose", (q,), None, out, sides, warming, at)
 
     def frames(
         self, q: ArrayLike, *,
@@ -58,7 +58,7 @@ class Outputs:
         q: joint values, base to tip, in rad (prismatic joint: m).
         Result: (n, 4, 4), in m (axes: 1).
         """
-        return self.evaluate("frames", [q], None, out, sides, warming, at)
+        return self.evaluate("frames", (q,), None, out, sides, warming, at)
 
     def jacobian(
         self, q: ArrayLike, *,
@@ -71,7 +71,7 @@ class Outputs:
         q: joint values, base to tip, in rad (prismatic joint: m).
         Result: (6, n), in m/rad (prismatic joint: 1), rad/rad (prismatic joint: 0).
         """
-        return self.evaluate("jacobian", [q], None, out, sides, warming, at)
+        return self.evaluate("jacobian", (q,), None, out, sides, warming, at)
 
     def jacobian_tool(
         self, q: ArrayLike, *,
@@ -84,7 +84,7 @@ class Outputs:
         q: joint values, base to tip, in rad (prismatic joint: m).
         Result: (6, n), in m/rad (prismatic joint: 1), rad/rad (prismatic joint: 0).
         """
-        return self.evaluate("jacobian_tool", [q], None, out, sides, warming, at)
+        return self.evaluate("jacobian_tool", (q,), None, out, sides, warming, at)
 
     def jacobian_spatial(
         self, q: ArrayLike, *,
@@ -97,7 +97,7 @@ class Outputs:
         q: joint values, base to tip, in rad (prismatic joint: m).
         Result: (6, n), in m/rad (prismatic joint: 1), rad/rad (prismatic joint: 0).
         """
-        return self.evaluate("jacobian_spatial", [q], None, out, sides, warming, at)
+        return self.evaluate("jacobian_spatial", (q,), None, out, sides, warming, at)
 
     def complementary_stiffness(
         self, q: ArrayLike, wrench: ArrayLike, *,
@@ -111,7 +111,7 @@ class Outputs:
         wrench: force and moment on the tool, N and N·m, base axes, at the tool's origin.
         Result: (n, n), in N·m/rad (prismatic joint: N, two of them: N/m).
         """
-        return self.evaluate("complementary_stiffness", [q], wrench, out, sides, warming, at)
+        return self.evaluate("complementary_stiffness", (q,), wrench, out, sides, warming, at)
 
     def joint_torque(
         self, q: ArrayLike, wrench: ArrayLike, *,
@@ -125,7 +125,7 @@ class Outputs:
         wrench: force and moment on the tool, N and N·m, base axes, at the tool's origin.
         Result: (n,), in N·m (prismatic joint: N).
         """
-        return self.evaluate("joint_torque", [q], wrench, out, sides, warming, at)
+        return self.evaluate("joint_torque", (q,), wrench, out, sides, warming, at)
 
     def weight_torque(
         self, q: ArrayLike, *,
@@ -138,7 +138,7 @@ class Outputs:
         q: joint values, base to tip, in rad (prismatic joint: m).
         Result: (n,), in N·m (prismatic joint: N).
         """
-        return self.evaluate("weight_torque", [q], None, out, sides, warming, at)
+        return self.evaluate("weight_torque", (q,), None, out, sides, warming, at)
 
     def weight_stiffness(
         self, q: ArrayLike, *,
@@ -151,7 +151,7 @@ class Outputs:
         q: joint values, base to tip, in rad (prismatic joint: m).
         Result: (n, n), in N·m/rad (prismatic joint: N, two of them: N/m).
         """
-        return self.evaluate("weight_stiffness", [q], None, out, sides, warming, at)
+        return self.evaluate("weight_stiffness", (q,), None, out, sides, warming, at)
 
     def compliance(
         self, q: ArrayLike, *,
@@ -164,7 +164,7 @@ class Outputs:
         q: joint values, base to tip, in rad (prismatic joint: m).
         Result: (6, 6), in m/N and m/(N·m), rad/N and rad/(N·m).
         """
-        return self.evaluate("compliance", [q], None, out, sides, warming, at)
+        return self.evaluate("compliance", (q,), None, out, sides, warming, at)
 
     def deflection_first_order(
         self, q: ArrayLike, wrench: ArrayLike, *,
@@ -178,7 +178,7 @@ class Outputs:
         wrench: force and moment on the tool, N and N·m, base axes, at the tool's origin.
         Result: (6,), in m, rad.
         """
-        return self.evaluate("deflection_first_order", [q], wrench, out, sides, warming, at)
+        return self.evaluate("deflection_first_order", (q,), wrench, out, sides, warming, at)
 
     def deflection(
         self, q: ArrayLike, wrench: ArrayLike, *,
@@ -194,7 +194,7 @@ class Outputs:
 
         Raises Unstable where the arm has no stable equilibrium; the others are in `out`.
         """
-        return self.evaluate("deflection", [q], wrench, out, sides, warming, at)
+        return self.evaluate("deflection", (q,), wrench, out, sides, warming, at)
 
     def deflection_with_gravity(
         self, q: ArrayLike, wrench: ArrayLike, *,
@@ -210,7 +210,7 @@ class Outputs:
 
         Raises Unstable where the arm has no stable equilibrium; the others are in `out`.
         """
-        return self.evaluate("deflection_with_gravity", [q], wrench, out, sides, warming, at)
+        return self.evaluate("deflection_with_gravity", (q,), wrench, out, sides, warming, at)
 
     def parameter_jacobian(
         self, q: ArrayLike, *,
@@ -223,7 +223,7 @@ class Outputs:
         q: joint values, base to tip, in rad (prismatic joint: m).
         Result: (6, 4 n + 6), in m/rad (length: 1), rad/rad (length: 0).
         """
-        return self.evaluate("parameter_jacobian", [q], None, out, sides, warming, at)
+        return self.evaluate("parameter_jacobian", (q,), None, out, sides, warming, at)
 
     def compliance_regressor(
         self, q: ArrayLike, wrench: ArrayLike, *,
@@ -237,7 +237,7 @@ class Outputs:
         wrench: force and moment on the tool, N and N·m, base axes, at the tool's origin.
         Result: (6, n), in N·m²/rad (prismatic joint: N), N·m (prismatic joint: 0).
         """
-        return self.evaluate("compliance_regressor", [q], wrench, out, sides, warming, at)
+        return self.evaluate("compliance_regressor", (q,), wrench, out, sides, warming, at)
 
     def inverse_dynamics(
         self, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike, *,
@@ -252,7 +252,7 @@ class Outputs:
         qdd: their accelerations, in rad/s² (prismatic joint: m/s²).
         Result: (n,), in N·m (prismatic joint: N).
         """
-        return self.evaluate("inverse_dynamics", [q, qd, qdd], None, out, sides, warming, at)
+        return self.evaluate("inverse_dynamics", (q, qd, qdd,), None, out, sides, warming, at)
 
     def bias(
         self, q: ArrayLike, qd: ArrayLike, *,
@@ -266,7 +266,7 @@ class Outputs:
         qd: their rates, in rad/s (prismatic joint: m/s).
         Result: (n,), in N·m (prismatic joint: N).
         """
-        return self.evaluate("bias", [q, qd], None, out, sides, warming, at)
+        return self.evaluate("bias", (q, qd,), None, out, sides, warming, at)
 
     def mass_matrix(
         self, q: ArrayLike, *,
@@ -279,7 +279,7 @@ class Outputs:
         q: joint values, base to tip, in rad (prismatic joint: m).
         Result: (n, n), in kg·m² (prismatic joint: kg·m, two of them: kg).
         """
-        return self.evaluate("mass_matrix", [q], None, out, sides, warming, at)
+        return self.evaluate("mass_matrix", (q,), None, out, sides, warming, at)
 
     def hessian(
         self, q: ArrayLike, *,
@@ -292,7 +292,7 @@ class Outputs:
         q: joint values, base to tip, in rad (prismatic joint: m).
         Result: (n, 6, n), in m/rad² (a prismatic joint: m/rad), rad/rad².
         """
-        return self.evaluate("hessian", [q], None, out, sides, warming, at)
+        return self.evaluate("hessian", (q,), None, out, sides, warming, at)
 
     def jacobian_rate(
         self, q: ArrayLike, qd: ArrayLike, *,
@@ -306,7 +306,7 @@ class Outputs:
         qd: their rates, in rad/s (prismatic joint: m/s).
         Result: (6, n), in m/(rad s) (prismatic joint: 1/s), 1/s.
         """
-        return self.evaluate("jacobian_rate", [q, qd], None, out, sides, warming, at)
+        return self.evaluate("jacobian_rate", (q, qd,), None, out, sides, warming, at)
 
     def compliance_by_joints(
         self, q: ArrayLike, *,
@@ -319,7 +319,7 @@ class Outputs:
         q: joint values, base to tip, in rad (prismatic joint: m).
         Result: (n, 6, 6), in m/N and m/(N·m), per rad (prismatic joint: m), rad/N and rad/(N·m), per rad (m).
         """
-        return self.evaluate("compliance_by_joints", [q], None, out, sides, warming, at)
+        return self.evaluate("compliance_by_joints", (q,), None, out, sides, warming, at)
 
     def deflection_by_joints(
         self, q: ArrayLike, wrench: ArrayLike, *,
@@ -335,7 +335,7 @@ class Outputs:
 
         Raises Unstable where the arm has no stable equilibrium; the others are in `out`.
         """
-        return self.evaluate("deflection_by_joints", [q], wrench, out, sides, warming, at)
+        return self.evaluate("deflection_by_joints", (q,), wrench, out, sides, warming, at)
 
     def manipulability(
         self, q: ArrayLike, *,
@@ -348,7 +348,7 @@ class Outputs:
         q: joint values, base to tip, in rad (prismatic joint: m).
         Result: (), in m per rad for each singular value of a translation.
         """
-        return self.evaluate("manipulability", [q], None, out, sides, warming, at)
+        return self.evaluate("manipulability", (q,), None, out, sides, warming, at)
 
     def manipulability_by_joints(
         self, q: ArrayLike, *,
@@ -361,7 +361,7 @@ class Outputs:
         q: joint values, base to tip, in rad (prismatic joint: m).
         Result: (n,), in that of the manipulability, per rad (prismatic joint: m).
         """
-        return self.evaluate("manipulability_by_joints", [q], None, out, sides, warming, at)
+        return self.evaluate("manipulability_by_joints", (q,), None, out, sides, warming, at)
 
     def inverse_dynamics_by_joints(
         self, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike, *,
@@ -376,7 +376,7 @@ class Outputs:
         qdd: their accelerations, in rad/s² (prismatic joint: m/s²).
         Result: (n, n), in N·m/rad (prismatic joint: N, two of them: N/m).
         """
-        return self.evaluate("inverse_dynamics_by_joints", [q, qd, qdd], None, out, sides, warming, at)
+        return self.evaluate("inverse_dynamics_by_joints", (q, qd, qdd,), None, out, sides, warming, at)
 
     def inverse_dynamics_by_rates(
         self, q: ArrayLike, qd: ArrayLike, *,
@@ -390,7 +390,7 @@ class Outputs:
         qd: their rates, in rad/s (prismatic joint: m/s).
         Result: (n, n), in N·m·s/rad (prismatic joint: N·s, two of them: N·s/m).
         """
-        return self.evaluate("inverse_dynamics_by_rates", [q, qd], None, out, sides, warming, at)
+        return self.evaluate("inverse_dynamics_by_rates", (q, qd,), None, out, sides, warming, at)
 
     def forward_dynamics(
         self, q: ArrayLike, qd: ArrayLike, tau: ArrayLike, *,
@@ -407,7 +407,7 @@ class Outputs:
 
         Raises Unstable where the arm has no stable equilibrium; the others are in `out`.
         """
-        return self.evaluate("forward_dynamics", [q, qd, tau], None, out, sides, warming, at)
+        return self.evaluate("forward_dynamics", (q, qd, tau,), None, out, sides, warming, at)
 
     def torque_regressor(
         self, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike, *,
@@ -422,4 +422,4 @@ class Outputs:
         qdd: their accelerations, in rad/s² (prismatic joint: m/s²).
         Result: (n, 10 n), in m/s² (first moments: m/s²·m, tensor: 1/s²; times m of a revolute joint).
         """
-        return self.evaluate("torque_regressor", [q, qd, qdd], None, out, sides, warming, at)
+        return self.evaluate("torque_regressor", (q, qd, qdd,), None, out, sides, warming, at)

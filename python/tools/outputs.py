@@ -72,7 +72,7 @@ def method(name, sentence, formula, joints, takes_wrench, result):
         *about,
         f"        Result: {shape}, in {units}.{raises}",
         '        """',
-        f'        return self.evaluate("{name}", [{values}], {wrench}, out, sides, warming, at)',
+        f'        return self.evaluate("{name}", ({values},), {wrench}, out, sides, warming, at)',
     ]
     return "\n".join(lines) + "\n"
 

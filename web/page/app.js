@@ -6,7 +6,7 @@ const decoder = new TextDecoder();
 const bytesOf = (text) => new TextEncoder().encode(text);
 
 // What was chosen: each a name and bytes; what the reader said of columns.
-const chosen = { robot: null, data: null, log: false, said: new Map() };
+const chosen = { robot: null, data: null, bench: null, log: false, said: new Map() };
 let shown = null;
 
 function say(text, wrong = false) {
@@ -50,9 +50,18 @@ async function takeData(name, bytes) {
   await look();
 }
 
+// What is known of the bench; nothing without a file.
+async function takeBench(file) {
+  chosen.bench = file ? { name: file.name, bytes: new Uint8Array(await file.arrayBuffer()) } : null;
+  at("bench-name").textContent = file ? beside("bench-file", file.name) : "";
+  if (!file) at("bench-file").value = "";
+  at("no-bench").hidden = !file;
+}
+
 // Shows the columns as they are understood; a table that is a measurement file already stays as it is.
 async function look() {
   at("side").hidden = !chosen.log;
+  at("bench").hidden = chosen.log;
   at("diagnose").disabled = !(chosen.robot && chosen.data);
   if (!chosen.data) return;
   const { name, bytes } = chosen.data;
@@ -114,6 +123,10 @@ async function diagnose() {
   if (map) {
     files.set("map.toml", bytesOf(map));
     words.push("--map", "map.toml");
+  }
+  if (chosen.bench && !chosen.log) {
+    files.set(chosen.bench.name, chosen.bench.bytes);
+    words.push("--bench", chosen.bench.name);
   }
   if (chosen.log && at("torque-side").value) words.push("--torque-side", at("torque-side").value);
   words.push(...added());
@@ -201,6 +214,7 @@ async function example(robot, name, bytes, options) {
   at("built-in").value = robot;
   at("robot-name").textContent = "";
   at("options").value = options;
+  await takeBench(null);
   await takeData(name, bytes);
   await diagnose();
 }
@@ -231,9 +245,11 @@ function drop(area, take) {
 
 const dataFrom = async (file) => takeData(file.name, new Uint8Array(await file.arrayBuffer()));
 drop(at("robot"), takeRobot);
-drop(at("data"), dataFrom);
+drop(at("data"), (file) => (file.name.endsWith(".toml") ? takeBench(file) : dataFrom(file)));
 at("robot-file").onchange = act(({ target }) => target.files[0] && takeRobot(target.files[0]));
 at("data-file").onchange = act(({ target }) => target.files[0] && dataFrom(target.files[0]));
+at("bench-file").onchange = act(({ target }) => takeBench(target.files[0]));
+at("no-bench").onclick = act(() => takeBench(null));
 at("built-in").onchange = act(async ({ target }) => {
   chosen.robot = target.value ? { name: target.value } : null;
   at("robot-name").textContent = "";

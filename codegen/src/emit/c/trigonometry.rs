@@ -23,6 +23,20 @@ pub(super) fn sin_cos(sines: Sines, precision: Precision) -> String {
     }
 }
 
+/// The statements of the polynomial for one double, `angle`: its sine and cosine as `s` and `c`, but for the quadrant, which
+/// the `multiple` of a quarter turn tells.
+pub(super) fn of_one_double() -> String {
+    let wanted = ["const double shift", "const lanes_t", "s.number =", "c.number ="];
+    let lines = DOUBLE.lines().map(str::trim_start);
+    let lines = lines.filter(|line| wanted.iter().any(|start| line.starts_with(start)));
+    let text: String =
+        lines.filter(|line| !line.contains("LOADED")).map(|line| format!("    {line}\n")).collect();
+    let names = [("lanes_t", "double"), ("r.number", "head")];
+    let names =
+        names.into_iter().chain([("s.number", "const double s"), ("c.number", "const double c")]);
+    names.fold(text, |text, (from, to)| text.replace(from, to))
+}
+
 /// An angle, and where its sine and cosine go, as far as they are wanted.
 pub(super) struct Pair {
     pub angle: String,

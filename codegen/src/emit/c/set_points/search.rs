@@ -5,6 +5,7 @@ use stiffarm_kernels::Axes;
 use super::{Module, Text};
 use crate::emit::c::Precision;
 use crate::emit::c::arctangent::direction;
+use crate::emit::c::trigonometry::of_one_double;
 use crate::robot::Robot;
 
 /// What does not depend on the arm, which is called `arm`.
@@ -76,7 +77,8 @@ static void arm_search(const {real} q[{n}]{parameters}, const {real} target[12],
 }}
 "
     );
-    let whole = format!("{angle}{SEARCH}{own}").replace("static ", &format!("{local} "));
+    let search = SEARCH.replace("    POLYNOMIAL\n", &of_one_double());
+    let whole = format!("{angle}{search}{own}").replace("static ", &format!("{local} "));
     whole.replace("arm_", &format!("{name}_"))
 }
 

@@ -46,25 +46,8 @@ static void arm_plus(const double *a, double f, const double *b, double *out)
 /* Cosine and sine. */
 static void arm_circle(double angle, double *out)
 {
-    const double shifted = angle * 0.6366197723675814 + 6755399441055744.0;
-    const double multiple = shifted - 6755399441055744.0;
-    const double first = multiple * (-1.5707963267923333) + angle;
-    const double head = multiple * (-2.5633441515839558e-12) + first;
-    const double lost = multiple * (-2.5633441515839558e-12) + (first - head);
-    const double rest = multiple * (-1.0562999066987428e-23) + lost;
+    POLYNOMIAL
     const int beyond = ((angle <= 1e9) && (angle >= -1e9)) ? 0 : 1;
-    const double x = head;
-    const double z = x * x;
-    const double z2 = z * z;
-    const double s0 = z * 0.008333333333322484 + (-0.16666666666666632);
-    const double s2 = z * 2.7557313704098867e-06 + (-0.0001984126982985116);
-    const double s4 = z * 1.5896875188647993e-10 + (-2.5050759714136158e-08);
-    const double c0 = z * (-0.001388888888887447) + 0.0416666666666666;
-    const double c2 = z * (-2.755731439923815e-07) + 2.4801587289666865e-05;
-    const double c4 = z * (-1.1359916899499847e-11) + 2.0875728988224267e-09;
-    const double falls = z * (z2 * (z2 * c4 + c2) + c0) + (-0.5);
-    const double s = x + ((x * z) * (z2 * (z2 * s4 + s2) + s0) + rest);
-    const double c = x * (x * falls - rest) + 1.0;
     const double quarter = multiple - 4.0 * floor(0.25 * multiple);
     const int odd = ((quarter == 1.0) || (quarter == 3.0)) ? 1 : 0;
 
