@@ -1,9 +1,9 @@
-//! Sockets, plates and a camera in place of a tracker: every effect, blind, in unknown places of the bench.
+//! Sockets, plates, wires, gauges, a level and a camera in place of a tracker: every effect, blind, in unknown places of the
+//! bench.
 
 use stiffarm_gap::Options;
-use stiffarm_gap::effects::Effect;
 use stiffarm_gap::measurement::Kind;
-use stiffarm_gap::observe::Bench;
+use stiffarm_gap::observe::{Bench, Seen};
 use stiffarm_gap::plant::design::{Design, Shape, beside};
 use stiffarm_gap::plant::{Frames, Noise, effects};
 use stiffarm_gap::study::withhold::{Campaign, Experiment, Report, with_findings};
@@ -24,12 +24,12 @@ struct Setting {
 
 #[derive(Clone, Copy, Debug)]
 enum Instrument {
-    /// Balls sit in sockets.
-    Sockets,
-    /// Plates are probed.
-    Plates,
+    /// Balls in sockets, a probe on plates, three draw wires, gauges of unknown zero, or a level.
+    Reads(Seen),
     /// A camera beside the arm shows a board of six corners on the tool.
     Camera,
+    /// A detector tells the pose of a board on the tool.
+    Board,
 }
 
 /// The lens of a machine's camera, and a printed board of a hand's breadth.
@@ -50,52 +50,63 @@ c5 = [0.24, 0.18, 0]
 ";
 
 fn settings() -> Vec<Setting> {
-    let robots = [("kuka_kr240", 1e6, 240.0), ("iiwa14", 1.5e4, 14.0)];
-    let of_robot = |(robot, stiffness, payload)| {
-        use Instrument::{Camera, Plates, Sockets};
-        [Sockets, Plates, Camera].map(|instrument| Setting {
+    use Instrument::{Board, Camera, Reads};
+    let each = [Reads(Seen::Point), Reads(Seen::Plane), Camera];
+    let of_robot = |robot, stiffness, payload, more: [Instrument; 2]| {
+        each.into_iter().chain(more).map(move |instrument| Setting {
             robot,
             stiffness,
             payload,
             instrument,
         })
     };
-    robots.into_iter().flat_map(of_robot).collect()
+    let large = of_robot("kuka_kr240", 1e6, 240.0, [Reads(Seen::Distance), Reads(Seen::Level)]);
+    large.chain(of_robot("iiwa14", 1.5e4, 14.0, [Reads(Seen::Direction), Board])).collect()
 }
 
-/// What no socket sees whose place is unknown: an arm that is larger by a factor fits larger places.
-const UNSEEN: [&str; 1] = ["instrument_scale"];
-
-/// Ten postures at each of six sockets, twenty at each of six plates, which have one number a row, forty before the
-/// camera; no, half and full payload.
+/// Ten postures at each of six sockets, twenty at each of six plates, gauges and wires, which have one number a row, forty
+/// before the camera and with the level; no, half and full payload.
 fn run(setting: &Setting, cases: usize, seed: u64) -> Report {
     let Setting { payload, instrument, .. } = *setting;
     let mut arm = arm(setting.robot, setting.stiffness);
-    let (kind, poses) = match instrument {
-        Instrument::Sockets => (Kind::Bench { lengths: 3, angles: false }, 60),
-        Instrument::Plates => (Kind::Bench { lengths: 1, angles: false }, 120),
-        Instrument::Camera => (Kind::Bench { lengths: 0, angles: true }, 40),
+    let poses = match instrument {
+        Instrument::Reads(Seen::Point) => 60,
+        Instrument::Reads(Seen::Plane | Seen::Direction | Seen::Distance) => 120,
+        _ => 40,
     };
-    let by_camera = matches!(instrument, Instrument::Camera);
+    let by_camera = !matches!(instrument, Instrument::Reads(_));
     if by_camera {
         arm.base = beside(&arm);
     }
     let bench = Bench::read("bench.toml", BENCH_FILE).expect("a bench");
     let design = |seed| {
+        let kind = match instrument {
+            Instrument::Camera => Kind::Bench { lengths: 0, angles: true },
+            _ => Kind::Pose { orientation: true },
+        };
         let design = Design { shape: Shape::Payload, poses, repeats: 1, payload, kind, seed };
-        let shown = || design.shown(&arm, &bench).expect("a camera and a board");
-        if by_camera { shown() } else { design.rows(&arm) }
+        match instrument {
+            Instrument::Reads(seen) => design.read_by(&arm, seen),
+            Instrument::Camera => design.shown(&arm, &bench).expect("a camera and a board"),
+            Instrument::Board => design.detected(&arm),
+        }
     };
-    let seen = |effect: &&dyn Effect| !UNSEEN.contains(&effect.identifier());
-    let effects: Vec<_> = effects().into_iter().filter(seen).collect();
+    let effects = effects();
     let fresh = [1000, 2000, 3000, 4000].map(|more| design(seed + more));
     let options = Options { version: "test".to_owned(), ..Options::default() };
     let experiment = Experiment::Campaign(Campaign {
         design: &design(seed),
         fresh: &fresh,
         predict: Some(&with_findings(&arm, &options.catalogue)),
-        // What a printed socket or a plate and a dial gauge are good for; a tenth of a pixel.
-        noise: Noise { position: 50e-6, rotation: if by_camera { 0.1 / 2400.0 } else { 0.0 } },
+        // What a printed socket or a plate and a dial gauge are good for; a tenth of a pixel, and twice as much of a level
+        // and of a board.
+        noise: Noise {
+            position: 50e-6,
+            rotation: match instrument {
+                Instrument::Camera => 0.1 / 2400.0,
+                _ => 0.2 / 2400.0,
+            },
+        },
         frames: by_camera.then(Frames::default),
         effects: &effects,
         options: &options,

@@ -29,7 +29,7 @@ pub(crate) use autocorrelation::{Autoregression, correlation_time};
 pub(crate) use basis::{Basis, RANK, principal};
 pub(crate) use bounded::Squares;
 pub(crate) use dependent::Dependent;
-pub(crate) use evidence::Scale;
+pub(crate) use evidence::{Scale, likely_scale};
 pub(crate) use order::ordered;
 pub(crate) use products::{Choice, Products, starts};
 pub(crate) use rank::Ranked;

@@ -31,7 +31,9 @@ impl Measurements {
             true => (first, second),
             false => (first.on_bench(&second.file)?, second.on_bench("the other files")?),
         };
-        let differ = (first.by_camera, first.by_board) != (second.by_camera, second.by_board);
+        // A camera's poses are told in its own axes; each reading of a bench says itself whether a camera shows it.
+        let is_bench = matches!(first.kind, Kind::Bench { .. });
+        let differ = !is_bench && first.by_camera != second.by_camera;
         if first.sim_given != second.sim_given || differ {
             let expected = "the same columns `sim_…`, and a camera's poses with their like";
             return Err(Fault::new("files that differ in them", expected, "").of(&second.file));
@@ -66,7 +68,7 @@ impl Measurements {
             rows,
             kind,
             sim_given: first.sim_given,
-            by_camera: first.by_camera,
+            by_camera: first.by_camera || second.by_camera,
             by_board: first.by_board || second.by_board,
             poses: first.poses + second.poses,
             pairs,

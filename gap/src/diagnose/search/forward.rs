@@ -130,7 +130,7 @@ impl Search<'_, '_> {
                 now = pruned(self, now, false)?;
             }
         }
-        pruned(self, now, true)
+        pruned(self, self.as_tolerated(now)?, true)
     }
 
     /// The candidates beside the model, best first.

@@ -10,7 +10,7 @@ use super::{Campaign, Kind, Plan, WithholdError, exact};
 use crate::diagnose::{Diagnosis, Nuisance, Options, diagnose};
 use crate::effects::{Catalogue, Draw, Effect, Place};
 use crate::infer::Basis;
-use crate::measurement::Measurements;
+use crate::measurement::{Measurements, Row};
 use crate::plant::{PlantError, Truth, blurred};
 use crate::report::Finding;
 use crate::rng::{Rng, seed_of};
@@ -22,12 +22,13 @@ const FAINT: f64 = 1e-3;
 
 /// Everything that cases share.
 pub(super) struct Bench<'a> {
-    plan: &'a Plan<'a>,
-    own: &'a Campaign<'a>,
+    pub(super) plan: &'a Plan<'a>,
+    pub(super) own: &'a Campaign<'a>,
     /// What the arm of the file shows, without noise.
-    nominal: Measurements,
-    /// What unknown frames could do to the whitened gap, and which of that is decided.
-    nuisance: Option<(DMatrix<f64>, Basis)>,
+    pub(super) nominal: Measurements,
+    /// What unknown frames and the unknown constants of the bench could do to the whitened gap, and which of that is
+    /// decided.
+    unknowns: (DMatrix<f64>, Basis),
 }
 
 impl<'a> Bench<'a> {
@@ -44,15 +45,14 @@ impl<'a> Bench<'a> {
             }
         }
         let nominal = exact(own.whole(plan.arm), &[], own.frames.as_ref(), own.design)?;
-        let mut bench = Bench { plan, own, nominal, nuisance: None };
-        if own.frames.is_some() {
-            bench.nuisance = Some(bench.what_frames_do()?);
-        }
+        let none = DMatrix::zeros(0, 0);
+        let mut bench = Bench { plan, own, nominal, unknowns: (none.clone(), Basis::new(&none)) };
+        bench.unknowns = bench.what_unknowns_do()?;
         Ok(bench)
     }
 
     /// What an instrument without noise shows of these truths.
-    fn exact(&self, truths: &[Truth]) -> Result<Measurements, PlantError> {
+    pub(super) fn exact(&self, truths: &[Truth]) -> Result<Measurements, PlantError> {
         let whole = self.own.whole(self.plan.arm);
         exact(whole, truths, self.own.frames.as_ref(), self.own.design)
     }
@@ -88,16 +88,18 @@ impl<'a> Bench<'a> {
     }
 
     /// Root mean square of a truth's gap over all measured components, each in its noise, after
-    /// unknown frames have been fitted; `None` if the arm does not carry it.
+    /// unknown frames and the bench have been fitted; `None` if the arm does not carry it.
     fn multiple(&self, truth: &Truth) -> Option<f64> {
         let mut gap = self.whitened(&self.exact(core::slice::from_ref(truth)).ok()?);
-        if let Some((columns, basis)) = &self.nuisance {
+        let (columns, basis) = &self.unknowns;
+        if columns.ncols() > 0 {
             gap -= columns * basis.solve(&columns.tr_mul(&gap));
         }
         Some(gap.norm() / (gap.len() as f64).sqrt())
     }
 
-    fn whitened(&self, exact: &Measurements) -> DVector<f64> {
+    /// The gap that it shows, each number in its noise.
+    pub(super) fn whitened(&self, exact: &Measurements) -> DVector<f64> {
         let (components, noise) = (exact.kind.components(), self.own.noise);
         let mut gap = Vec::new();
         for (row, nominal) in exact.rows.iter().zip(&self.nominal.rows) {
@@ -107,23 +109,8 @@ impl<'a> Bench<'a> {
                 gap.push(off[k] / if k < 3 { noise.position } else { noise.rotation });
             }
         }
+        gap.extend(self.apart(exact));
         DVector::from_vec(gap)
-    }
-
-    fn what_frames_do(&self) -> Result<(DMatrix<f64>, Basis), PlantError> {
-        let mut columns = Vec::new();
-        for effect in Nuisance::ALL.map(Nuisance::effect) {
-            let places = effect.places(self.plan.arm).into_iter();
-            for (place, number) in places
-                .flat_map(|p| effect.numbers(self.plan.arm, p).into_iter().map(move |n| (p, n)))
-            {
-                let values = vec![(number.name.into_owned(), 1e-5)];
-                columns.push(self.whitened(&self.exact(&[Truth { effect, place, values }])?));
-            }
-        }
-        let columns = DMatrix::from_columns(&columns);
-        let basis = Basis::new(&columns.tr_mul(&columns));
-        Ok((columns, basis))
     }
 
     /// The plan's options of the diagnosis, as the case has them.
@@ -286,7 +273,7 @@ pub fn with_findings<'a>(
 fn squares(measured: &Measurements, predicted: impl Iterator<Item = Vector6<f64>>) -> f64 {
     let components = measured.kind.components();
     let range = if components[..3].contains(&true) { 0..3 } else { 3..6 };
-    let square = |(row, expected): (&crate::measurement::Row, Vector6<f64>)| -> f64 {
+    let square = |(row, expected): (&Row, Vector6<f64>)| -> f64 {
         let off = difference(&row.measured, &expected, components);
         range.clone().filter(|k| components[*k]).map(|k| off[k] * off[k]).sum()
     };

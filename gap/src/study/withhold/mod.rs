@@ -12,6 +12,7 @@ mod report;
 mod rigid;
 mod run;
 mod summary;
+mod unknowns;
 
 use nalgebra::Vector6;
 use stiffarm_kernels::generic::Arm;
