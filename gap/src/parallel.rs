@@ -2,6 +2,7 @@
 //!
 //! rayon is asked at one place, for work whose type is erased: each further place would compile rayon's plumbing anew.
 
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use rayon::prelude::*;
@@ -24,6 +25,22 @@ pub(crate) fn map<T: Send>(count: usize, of: &(dyn Fn(usize) -> T + Sync)) -> Ve
     all
 }
 
+/// `of` each number below `count`, or an error of one; after an error no more are begun.
+pub(crate) fn tried<T: Send, E: Send>(
+    count: usize,
+    of: &(dyn Fn(usize) -> Result<T, E> + Sync),
+) -> Result<Vec<T>, E> {
+    let failed = AtomicBool::new(false);
+    let begun = map(count, &|k| {
+        (!failed.load(Ordering::Relaxed)).then(|| {
+            let one = of(k);
+            failed.fetch_or(one.is_err(), Ordering::Relaxed);
+            one
+        })
+    });
+    begun.into_iter().flatten().collect()
+}
+
 /// `of` each item.
 pub(crate) fn each<I: Sync, T: Send>(items: &[I], of: &(dyn Fn(&I) -> T + Sync)) -> Vec<T> {
     map(items.len(), &|k| of(&items[k]))
@@ -41,6 +58,8 @@ fn all(count: usize, of: &(dyn Fn(usize) + Sync)) {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::atomic::AtomicUsize;
+
     use super::*;
 
     #[test]
@@ -52,6 +71,19 @@ mod tests {
             assert_eq!(each(&roots, &|k| k * k), squares);
             change(&mut roots, &|k| *k *= *k);
             assert_eq!(roots, squares);
+            assert_eq!(tried(count, &|k| Ok::<_, usize>(k * k)), Ok(squares));
         }
+    }
+
+    #[test]
+    fn after_an_error_no_more_are_begun() {
+        let begun = AtomicUsize::new(0);
+        let all = tried(100 * PARTS, &|k| {
+            begun.fetch_add(1, Ordering::Relaxed);
+            if k % 100 == 7 { Err(k) } else { Ok(k) }
+        });
+        assert_eq!(all.expect_err("a number fails") % 100, 7);
+        // Of each part that a core had begun no more than its first eight.
+        assert!(begun.into_inner() <= 8 * rayon::current_num_threads());
     }
 }

@@ -26,7 +26,7 @@ pub fn predicted<'a>(
     let here = Whole { arm, known: &known };
     let moments = moments(data);
     let read = |k: usize| -> Result<Row, DiagnoseError> {
-        let (row, when): (&Row, &Moment) = (&data.rows[k], &moments[k]);
+        let (row, when) = (&data.rows[k], &moments[k]);
         are_known(here, data, row)?;
         let unstable = |_| DiagnoseError::Unstable { file: data.file.clone(), line: row.line };
         let measured = reading(here, data.kind, row, when).map_err(unstable)?;

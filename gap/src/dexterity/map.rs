@@ -1,10 +1,10 @@
 //! A quantity over two joints, the others held: data, not a picture.
 
-use crate::parallel;
 use nalgebra::DMatrix;
 use stiffarm_kernels::generic::Arm;
 
 use super::{DexterityError, check_posture};
+use crate::parallel;
 
 /// Most cells of a map.
 const MOST_CELLS: f64 = 1e7;

@@ -3,13 +3,13 @@
 //! No list of round numbers holds them, and a linear step from the file does not reach them. The amount is looked for
 //! over its whole range with the frames in closed form, and the best are fitted as one more unknown.
 
-use crate::parallel;
 use core::f64::consts::{PI, TAU};
 
 use stiffarm_kernels::Motion;
 
 use super::kind::{Entry, Mistake};
 use super::search::{FEW, Search, Tried};
+use crate::parallel;
 
 /// Steps of a turn: least squares converge from half of one, 7.5°, which is tried itself, too: midway from nothing no
 /// amount leaves less.

@@ -33,11 +33,10 @@ pub(crate) fn aligned(problem: &Problem<'_>) -> Result<Model, DiagnoseError> {
     }
     let rows = 0..problem.data.rows.len();
     // Of very many rows the states are more than memory holds.
-    let seen = parallel::map(rows.len(), &|row| {
+    let seen = parallel::tried(rows.len(), &|row| -> Result<_, DiagnoseError> {
         let sim = model.sim(problem, row, None)?;
         Ok([sim.base * sim.loaded.tool, sim.seen_frame()])
-    });
-    let seen: Vec<[Isometry3<f64>; 2]> = seen.into_iter().collect::<Result<_, DiagnoseError>>()?;
+    })?;
     for (number, (view, thing)) in model.bench.iter_mut().zip(&problem.bench).enumerate() {
         let of = rows.clone().filter(|row| problem.bench_of[*row] == Some(number));
         let read =
@@ -166,13 +165,12 @@ pub(crate) fn fitted_thing(
 ) -> Result<View, DiagnoseError> {
     let rows = (0..problem.data.rows.len()).filter(|row| problem.bench_of[*row] == Some(thing));
     let rows: Vec<usize> = rows.filter(|row| problem.fits[*row]).collect();
-    let read = parallel::each(&rows, &|row| {
-        let (sim, row) = (model.sim(problem, *row, None)?, &problem.data.rows[*row]);
+    let read = parallel::tried(rows.len(), &|k| -> Result<_, DiagnoseError> {
+        let (sim, row) = (model.sim(problem, rows[k], None)?, &problem.data.rows[rows[k]]);
         let first = if problem.bench[thing].aim.view.is_angle() { 3 } else { 0 };
         let value = row.measured.fixed_rows::<3>(first).into_owned();
         Ok((sim.seen_frame(), value, row.view(problem.data.kind)))
-    });
-    let read: Vec<_> = read.into_iter().collect::<Result<_, DiagnoseError>>()?;
+    })?;
     let aim = &problem.bench[thing].aim;
     if read.is_empty() {
         return Ok(aim.view);

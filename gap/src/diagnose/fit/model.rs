@@ -168,14 +168,9 @@ impl Model {
             Ok((self.sim(problem, row, near).or_else(unloaded)?, Vector6::zeros()))
         };
         let (sims, mut gaps): (Vec<Sim>, Vec<Vector6<f64>>) = if rows <= MOST_KEPT {
-            parallel::map(rows, &seen)
-                .into_iter()
-                .collect::<Result<Vec<_>, _>>()?
-                .into_iter()
-                .unzip()
+            parallel::tried(rows, &seen)?.into_iter().unzip()
         } else {
-            let gaps = parallel::map(rows, &|row| seen(row).map(|(_, gap)| gap));
-            (Vec::new(), gaps.into_iter().collect::<Result<_, _>>()?)
+            (Vec::new(), parallel::tried(rows, &|row| seen(row).map(|(_, gap)| gap))?)
         };
         for rows in &problem.constants {
             let mean = rows.iter().map(|&row| gaps[row]).sum::<Vector6<f64>>() / rows.len() as f64;

@@ -90,8 +90,7 @@ fn run<B: Bench>(
         progress(1 + done.fetch_add(1, Ordering::Relaxed), plan.cases);
         case
     };
-    let cases = pool.install(|| parallel::map(plan.cases, &one));
-    let cases: Vec<Case> = cases.into_iter().collect::<Result<_, _>>()?;
+    let cases = pool.install(|| parallel::tried(plan.cases, &one))?;
     let first = cases.iter().find_map(|case| case.error.clone());
     match first.filter(|_| cases.iter().all(|case| case.verdict.is_none())) {
         Some(reason) => Err(WithholdError::Diagnose(reason)),
