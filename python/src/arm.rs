@@ -20,7 +20,7 @@ use stiffarm_kernels::{Input, Output, Side};
 
 use crate::arrays::{self, Numbers, Shape, Values, lead, numbers, shape};
 use crate::compiled::{self, Library};
-use crate::engine::{Engine, Engines, Poses};
+use crate::engine::{Engines, Poses};
 use crate::inverse::{Found, Inverse};
 use crate::work::{self, Unstable};
 
@@ -178,13 +178,9 @@ impl Arm {
         frames.chain(robot.markers.iter().map(|marker| marker.name.as_str())).collect()
     }
 
-    /// What computes an output or `inverse_kinematics`, of the tool or at a frame or marker: kernels, c, textbook or graph.
+    /// What computes an output, of the tool or at a frame or marker: kernels, c, textbook or graph.
     #[pyo3(signature = (output, at=None))]
     fn engine(&self, output: &str, at: Option<String>) -> PyResult<&'static str> {
-        if output == compiled::INVERSE[0] && at.is_none() {
-            let is_c = self.engines.library().is_some_and(Library::has_inverse);
-            return Ok(if is_c { Engine::Compiled } else { Engine::Graph }.name());
-        }
         Ok(self.engines.of(&self.asked(output, at)?).name())
     }
 
@@ -229,9 +225,7 @@ impl Arm {
             Ok(inverse)
         };
         let inverse = py.detach(found).map_err(PyValueError::new_err)?;
-        // C has what is given of seven joints by the robot file, and no other.
-        let library = self.engines.library().filter(|_| kept.is_none());
-        inverse.found(py, pose, near, (wrench, &given), library)
+        inverse.found(py, pose, near, (wrench, &given))
     }
 
     /// An output at one pose or many.

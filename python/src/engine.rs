@@ -109,11 +109,6 @@ impl Engines {
         &self.table
     }
 
-    /// C that was compiled of this robot, if it was.
-    pub fn library(&self) -> Option<&Library> {
-        self.library.get()
-    }
-
     /// What computes an output.
     pub fn of(&self, asked: &Asked) -> Engine {
         let tool = asked.at.is_none();

@@ -9,7 +9,6 @@ use stiffarm_codegen::robot::{ClosedForm, Family, Refused, Robot};
 use stiffarm_kernels::Pose;
 
 use crate::arrays::{lead, numbers, shape};
-use crate::compiled::Library;
 
 /// The arm's closed form, or that of the nearest table with the steps behind it.
 pub struct Inverse {
@@ -38,14 +37,13 @@ impl Inverse {
     }
 
     /// Every branch at poses, homogeneous matrices; readings `near`, one for all or one for each; the loaded arm where there is a
-    /// wrench; by C where it was compiled.
+    /// wrench.
     pub fn found<'py>(
         &self,
         py: Python<'py>,
         pose: &Bound<'py, PyAny>,
         near: Option<&Bound<'py, PyAny>>,
         (wrench, given): (Option<[f64; 6]>, &Given),
-        library: Option<&Library>,
     ) -> PyResult<Found<'py>> {
         let (poses, _) = numbers("pose", pose)?;
         let batch = match poses.shape() {
@@ -95,9 +93,7 @@ impl Inverse {
             let rotation = [column(0), column(1), column(2)];
             let pose = Pose { rotation, position: column(3) };
             let first = if near.len() > self.dof { k * self.dof } else { 0 };
-            let near = &near[first..][..self.dof];
-            let by_c = library.and_then(|c| c.inverse((near, &pose), wrench.as_ref(), given));
-            self.arm.branches(given, &pose, near, wrench.as_ref(), by_c.as_deref())
+            self.arm.branches(given, &pose, &near[first..][..self.dof], wrench.as_ref())
         };
         let all: Vec<AnyBranch> =
             py.detach(|| (0..count).into_par_iter().flat_map_iter(solve).collect());

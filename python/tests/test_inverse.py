@@ -1,7 +1,5 @@
 """The inverse kinematics: branches stand at their poses, and what does not fit is refused."""
 
-import shutil
-
 import numpy
 import pytest
 
@@ -79,39 +77,6 @@ def test_a_load_moves_the_set_points():
     load = [0.0, 0.0, -2000.0, 0.0, 0.0, 0.0]
     free, loaded = (arm.inverse_kinematics(arm.pose(q), near=q, wrench=each).nearest(q) for each in (None, load))
     assert 1e-4 < numpy.abs(loaded - free).max() < 1e-2
-
-
-@pytest.mark.skipif(shutil.which("cc") is None, reason="no C compiler")
-@pytest.mark.parametrize("name", ["kuka_kr240", "ur10", "panda", "stanford", "bicchi_3r", "better.toml", "searched"])
-def test_compiled_c_has_the_same_branches(name, tmp_path, at_root):
-    if name == "better.toml":
-        plain, sides = stiffarm.Arm.load("examples/compensation/better.toml"), [1, -1, 1, 1, -1, 1]
-    elif name == "searched":
-        entries = numpy.random.default_rng(5).uniform(0.2, 1.3, (6, 3))
-        rows = [{"a": a, "d": d, "alpha": alpha, "stiffness": 1e6} for a, d, alpha in entries]
-        plain, sides = stiffarm.Arm.from_dh(rows), None
-    else:
-        plain, sides = stiffarm.Arm.load(name), None
-    arm = stiffarm.Arm.from_toml(plain.toml)
-    assert arm.engine("inverse_kinematics") == "graph"
-    arm.compile(cache=tmp_path)
-    assert arm.engine("inverse_kinematics") == "c"
-    q = numpy.random.default_rng(3).uniform(-1.5, 1.5, (12, arm.dof))
-    poses = plain.pose(q, sides=sides)
-    # The last is out of reach.
-    poses[-1, :3, 3] *= 40.0
-    # The springs of this one do not bear the moment.
-    loads = [None] if name == "bicchi_3r" else [None, [3.0, -2.0, 5.0, 0.3, 0.2, -0.1]]
-    for wrench in loads:
-        ours, theirs = (each.inverse_kinematics(poses, near=q, wrench=wrench, sides=sides) for each in (arm, plain))
-        assert ours.bits == theirs.bits
-        met = (theirs.distance < 1e-9) & (theirs.angle < 1e-9)
-        assert met.any() and not met[-1].any()
-        assert (((ours.distance < 1e-9) & (ours.angle < 1e-9)) == met).all()
-        assert numpy.abs(ours.q - theirs.q)[met].max() < 1e-6
-        assert (ours.within_limits == theirs.within_limits).all()
-        # What is out of reach is not C's.
-        assert (ours.q == theirs.q)[~met].all() and (ours.distance == theirs.distance)[~met].all()
 
 
 def test_what_does_not_fit_is_refused():

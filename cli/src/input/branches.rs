@@ -57,7 +57,7 @@ impl Branches {
             let (force, moment) = (turned(0), turned(3));
             [force.x, force.y, force.z, moment.x, moment.y, moment.z]
         });
-        self.arm.branches(given, &pose, near, wrench.as_ref(), None)
+        self.arm.branches(given, &pose, near, wrench.as_ref())
     }
 
     /// The branches of a loaded arm that reach a target within the limits; none where any orientation will do.

@@ -102,35 +102,6 @@ fn an_arm_that_grows_takes_steps() {
     }
 }
 
-/// What a generated function wrote stays where it leaves nothing, and is followed to the end elsewhere.
-#[test]
-fn what_three_steps_leave_is_followed() {
-    let mut draws = Draws::new(24);
-    let (mut kept, mut followed) = (0, 0);
-    for family in FAMILIES {
-        let robot = off(&random(family, &mut draws).robot, 5e-4, &mut draws);
-        let form = robot.nearest_closed_form().expect("a closed form is near");
-        let (arm, forward) = (AsItIs::<6>::new(&robot, form, Given::default()), reference(&robot));
-        for _ in 0..10 {
-            let q: [f64; 6] = draws.array(-3.1, 3.1);
-            let pose = Pose::from(forward.pose(&q));
-            let [three, whole] =
-                [3, Steps::MOST].map(|most| arm.solutions(&pose, &q, (None, most)));
-            let mut numbers: Vec<f64> = three.iter().flat_map(|branch| branch.q).collect();
-            numbers.extend(three.iter().map(|branch| branch.distance));
-            numbers.extend(three.iter().map(|branch| branch.tilt));
-            let found = arm.solutions_from(&numbers, (&pose, &q), (None, Steps::MOST));
-            assert_eq!(found.len(), whole.len());
-            for (found, (three, whole)) in found.iter().zip(three.iter().zip(&whole)) {
-                let stays = three.distance.max(three.tilt) <= 1e-10;
-                assert_eq!(found, if stays { three } else { whole });
-                *if stays { &mut kept } else { &mut followed } += 1;
-            }
-        }
-    }
-    assert!(kept > 100 && followed > 100, "{kept} {followed}");
-}
-
 /// What is not near is searched for; with parameters it is refused with what stands in the way of a closed form.
 #[test]
 fn a_table_that_is_near_none_is_refused() {

@@ -24,15 +24,13 @@ pub struct Branch {
 
 /// An arm of any number of joints.
 pub trait AnyArm: Send + Sync {
-    /// Every branch near some readings, of the loaded arm where a wrench is given; `told` are the numbers that a generated
-    /// function wrote of the same, if one was called.
+    /// Every branch near some readings, of the loaded arm where a wrench is given.
     fn branches(
         &self,
         given: &Given,
         pose: &Pose<f64>,
         near: &[f64],
         wrench: Option<&[f64; 6]>,
-        told: Option<&[f64]>,
     ) -> Vec<Branch>;
 }
 
@@ -48,14 +46,9 @@ impl<const N: usize> AnyArm for Sized<N> {
         pose: &Pose<f64>,
         near: &[f64],
         wrench: Option<&[f64; 6]>,
-        told: Option<&[f64]>,
     ) -> Vec<Branch> {
         let near = core::array::from_fn(|joint| near.get(joint).copied().unwrap_or(0.0));
-        let (arm, load) = (self.arm.with(given), (wrench, Steps::MOST));
-        let found = match told {
-            Some(numbers) => arm.solutions_from(numbers, (pose, &near), load),
-            None => arm.solutions(pose, &near, load),
-        };
+        let found = self.arm.with(given).solutions(pose, &near, (wrench, Steps::MOST));
         let branch = |found: stiffarm_kernels::Solution<f64, N>| {
             let turned = found.turned(&near, &self.limits);
             Branch {

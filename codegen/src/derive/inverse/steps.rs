@@ -107,20 +107,13 @@ impl<const N: usize> AsItIs<N> {
         };
         let closed = &self.programs.closed;
         let block = |k: usize| closed.graph.evaluate(&closed.blocks[k].entries, value);
-        self.told(&[block(0), block(1), block(2)].concat())
-    }
-
-    /// Branches from the numbers of a generated function: `q` of each, each `distance`, each `tilt`.
-    fn told(&self, numbers: &[f64]) -> Vec<Solution<f64, N>> {
-        let count = numbers.len() / (N + 2);
-        let (q, missed) = numbers.split_at(count * N);
-        let (distances, tilts) = missed.split_at(count);
-        let each = q.chunks(N).zip(distances.iter().zip(tilts)).enumerate();
+        let (q, missed) = (block(0), block(1).into_iter().zip(block(2)));
+        let each = q.chunks(N).zip(missed).enumerate();
         each.map(|(branch, (q, (distance, tilt)))| Solution {
             branch,
             q: array(q),
-            distance: *distance,
-            tilt: *tilt,
+            distance,
+            tilt,
             motion: self.motion,
         })
         .collect()
@@ -164,44 +157,15 @@ impl<const N: usize> AsItIs<N> {
         (wrench, most): (Option<&[f64; 6]>, usize),
     ) -> Vec<Solution<f64, N>> {
         let each = self.closed_form(pose, near).into_iter();
-        each.map(|begin| self.solution(begin, pose, (wrench, most))).collect()
-    }
-
-    /// The same where a generated function wrote these numbers: what it leaves nothing of stays, and the others are followed.
-    pub fn solutions_from(
-        &self,
-        numbers: &[f64],
-        (pose, near): (&Pose<f64>, &[f64; N]),
-        (wrench, most): (Option<&[f64; 6]>, usize),
-    ) -> Vec<Solution<f64, N>> {
-        let mut told = self.told(numbers);
-        // Of a search what is infinitely far is no solution.
-        let left = |found: &Solution<f64, N>| {
-            let missed = found.distance.max(found.tilt);
-            !(missed <= LEFT || (missed == f64::INFINITY && self.search.is_some()))
-        };
-        if told.iter().any(left) {
-            let pairs = told.iter_mut().zip(self.closed_form(pose, near));
-            for (found, begin) in pairs.filter(|(found, _)| left(found)) {
-                *found = self.solution(begin, pose, (wrench, most));
+        let each = each.map(|begin| {
+            // A search that has found fewer has no more to follow.
+            let found = begin.distance.is_finite().then_some(begin.q).ok_or(Unstable);
+            match found.and_then(|q| self.follow(q, pose, (wrench, most))) {
+                Ok((q, [distance, tilt])) => Solution { q, distance, tilt, ..begin },
+                Err(Unstable) => Solution { distance: f64::INFINITY, tilt: f64::INFINITY, ..begin },
             }
-        }
-        told
-    }
-
-    /// The readings of one branch.
-    fn solution(
-        &self,
-        begin: Solution<f64, N>,
-        pose: &Pose<f64>,
-        (wrench, most): (Option<&[f64; 6]>, usize),
-    ) -> Solution<f64, N> {
-        // A search that has found fewer has no more to follow.
-        let found = begin.distance.is_finite().then_some(begin.q).ok_or(Unstable);
-        match found.and_then(|q| self.follow(q, pose, (wrench, most))) {
-            Ok((q, [distance, tilt])) => Solution { q, distance, tilt, ..begin },
-            Err(Unstable) => Solution { distance: f64::INFINITY, tilt: f64::INFINITY, ..begin },
-        }
+        });
+        each.collect()
     }
 
     fn blocks(
