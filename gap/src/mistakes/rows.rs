@@ -11,6 +11,9 @@ use crate::simulate::Moments;
 /// Rows that a fit is of. A mistake that moves the tool by millimetres is seen on a few dozen.
 const MOST: usize = 240;
 
+/// Corners of a picture that are enough for the board's pose: two above what one out of a plane needs.
+const CORNERS: usize = 8;
+
 /// The rows, and which frame each is measured in.
 pub(super) struct Rows<'a> {
     pub data: &'a Measurements,
@@ -27,10 +30,36 @@ pub(super) struct Rows<'a> {
     moved: Vec<Vec<f64>>,
 }
 
+/// At most so many of some rows, spread over them; of a board pictures that still tell where it is, since frames begin
+/// there.
+fn thinned(data: &Measurements, rows: &[usize], most: usize) -> Vec<usize> {
+    if !data.by_board {
+        return rows.iter().copied().step_by(rows.len().div_ceil(most).max(1)).collect();
+    }
+    let mut pictures = data.pictures();
+    pictures.iter_mut().for_each(|picture| picture.retain(|row| rows.binary_search(row).is_ok()));
+    pictures.retain(|picture| !picture.is_empty());
+    let every = pictures.len().div_ceil((most / CORNERS).max(1)).max(1);
+    let mut kept: Vec<usize> =
+        pictures.iter().step_by(every).flat_map(|picture| spread(picture)).collect();
+    kept.sort_unstable();
+    kept
+}
+
+/// Enough corners of a picture, in no row of the board: by multiples of the golden ratio, of which each lies far from those
+/// before it.
+fn spread(picture: &[usize]) -> Vec<usize> {
+    const GOLDEN: f64 = 0.618_033_988_749_894_9;
+    if picture.len() <= CORNERS {
+        return picture.to_vec();
+    }
+    let at = |k: usize| ((k as f64 * GOLDEN).fract() * picture.len() as f64) as usize;
+    (0..CORNERS).map(|k| picture[at(k)]).collect()
+}
+
 impl<'a> Rows<'a> {
     /// Of measurements of `arm` that has the effects `known`.
     pub(super) fn of(arm: &Arm, data: &'a Measurements, known: &[Known]) -> Self {
-        let every = data.rows.len().div_ceil(MOST);
         let stands = Stands::of(data);
         let (mut frames, mut names, mut points) = (Vec::new(), Vec::new(), Vec::new());
         let (mut frame_of, mut point_of) = (Vec::new(), Vec::new());
@@ -43,14 +72,14 @@ impl<'a> Rows<'a> {
             frame_of.push(frame);
             point_of.push(point);
         }
-        let chosen = (0..data.rows.len()).step_by(every).collect();
+        let chosen = thinned(data, &(0..data.rows.len()).collect::<Vec<_>>(), MOST);
         let moved = moved(arm, data, known);
         Rows { data, chosen, frame_of, point_of, frames: frames.len(), points, moved }
     }
 
     /// The same of at most `most` rows.
     pub(super) fn fewer(&self, most: usize) -> Vec<usize> {
-        self.chosen.iter().copied().step_by(self.chosen.len().div_ceil(most)).collect()
+        thinned(self.data, &self.chosen, most)
     }
 
     /// What a row says without the mistakes, and the joints' values; `None` where they leave it without a

@@ -1,5 +1,7 @@
 //! Where an object is by the directions in which a camera sees points of it.
 
+use core::iter::successors;
+
 use nalgebra::{
     DMatrix, Isometry3, Matrix2x3, Matrix3, Matrix3x4, Matrix6, Rotation3, Unit, UnitQuaternion,
     Vector2, Vector3, Vector6,
@@ -14,6 +16,9 @@ const LEAST: [usize; 2] = [4, 6];
 /// Most steps of the least squares, and the size of the last one, m and rad.
 const STEPS: usize = 50;
 const LAST: f64 = 1e-13;
+
+/// Halvings of a step that leaves more: beyond a million there is nothing to win.
+const HALVINGS: usize = 20;
 
 /// Points of an object and where they are seen, told in axes in which a flat object has z = 0.
 pub(super) struct Object {
@@ -89,21 +94,35 @@ impl Object {
         };
         Some(Isometry3::from_parts((place * factor).into(), near(&turn)?))
     }
+
+    /// A pose near that in which an object that is not flat is seen, as if all of it were equally far (DeMenthon & Davis
+    /// 1995): where few points, or in two lines, leave a projective matrix undecided this still has one answer.
+    fn far(&self) -> Option<Isometry3<f64>> {
+        let middle =
+            self.local.iter().map(|(_, d)| d).sum::<Vector2<f64>>() / self.local.len() as f64;
+        let spread: Matrix3<f64> = self.local.iter().map(|(p, _)| p * p.transpose()).sum();
+        let shown: Matrix2x3<f64> =
+            self.local.iter().map(|(p, d)| (d - middle) * p.transpose()).sum();
+        let slope = shown * spread.try_inverse()?;
+        let [x, y]: [Vector3<f64>; 2] = core::array::from_fn(|k| slope.row(k).transpose());
+        let depth = 2.0 / (x.norm() + y.norm());
+        let [x, y] = [x.normalize(), y.normalize()];
+        let turn = Matrix3::from_columns(&[x, y, x.cross(&y)]).transpose();
+        Some(Isometry3::from_parts((middle.push(1.0) * depth).into(), near(&turn)?))
+    }
 }
 
 /// The pose of an object in the camera's axes, by points of it and the directions `x/z, y/z` in which they are seen:
-/// from a linear guess by least squares. `None` of too few points, or of points on a line.
+/// from linear guesses by least squares. `None` of too few points, or of points on a line.
 pub(crate) fn pose(seen: &[(Vector3<f64>, Vector2<f64>)]) -> Option<Isometry3<f64>> {
     let object = Object::of(seen)?;
-    let first = object.first()?;
-    let mut starts = vec![first];
-    if object.is_flat {
-        starts.push(mirrored(&first));
-    }
-    let refined = starts.iter().map(|start| refined(&object.local, *start));
-    let (mut best, _) = refined.min_by(|(_, a), (_, b)| a.total_cmp(b))?;
+    let (first, far) = (object.first(), if object.is_flat { None } else { object.far() });
+    let turned = (if object.is_flat { &first } else { &far }).as_ref().map(mirrored);
+    let starts = [first, far, turned].into_iter().flatten();
+    let refined = starts.map(|start| refined(&object.local, start));
+    let (mut best, left) = refined.min_by(|(_, a), (_, b)| a.total_cmp(b))?;
     best.translation.vector /= object.scale;
-    let is_finite = best.to_homogeneous().iter().all(|x| x.is_finite());
+    let is_finite = best.to_homogeneous().iter().chain([&left]).all(|x| x.is_finite());
     Some(best * object.frame.inverse()).filter(|_| is_finite)
 }
 
@@ -151,32 +170,50 @@ fn mirrored(pose: &Isometry3<f64>) -> Isometry3<f64> {
     Isometry3::from_parts(pose.translation, turn * pose.rotation)
 }
 
-/// By Gauss and Newton, and the squares that it leaves.
+/// By Gauss and Newton, each step halved until it leaves less, and the squares that are left.
 fn refined(seen: &[(Vector3<f64>, Vector2<f64>)], start: Isometry3<f64>) -> (Isometry3<f64>, f64) {
-    let mut pose = start;
+    let mut now = (start, left(seen, &start));
     for _ in 0..STEPS {
-        let (mut normal, mut right) = (Matrix6::zeros(), Vector6::zeros());
-        for (point, direction) in seen {
-            let arm = pose.rotation * point;
-            let place = arm + pose.translation.vector;
-            let left = direction - place.xy() / place.z;
-            let slope = Matrix2x3::new(1.0, 0.0, -place.x / place.z, 0.0, 1.0, -place.y / place.z)
-                / place.z;
-            let mut block = nalgebra::Matrix2x6::zeros();
-            block.fixed_columns_mut::<3>(0).copy_from(&slope);
-            block.fixed_columns_mut::<3>(3).copy_from(&(slope * -arm.cross_matrix()));
-            normal += block.tr_mul(&block);
-            right += block.tr_mul(&left);
-        }
-        let Some(step) = normal.cholesky().map(|factor| factor.solve(&right)) else { break };
-        pose.translation.vector += step.fixed_rows::<3>(0);
-        let turn = UnitQuaternion::from_scaled_axis(step.fixed_rows::<3>(3).into_owned());
-        pose.rotation = turn * pose.rotation;
+        let Some(step) = step(seen, &now.0) else { break };
+        let halved = successors(Some(1.0), |part| Some(part / 2.0)).take(HALVINGS);
+        let moved = halved.map(|part| moved(&now.0, &(step * part)));
+        let mut better = moved.map(|pose| (pose, left(seen, &pose)));
+        let Some(next) = better.find(|(_, then)| *then < now.1) else { break };
+        now = next;
         if step.amax() < LAST {
             break;
         }
     }
-    let left = |(point, direction): &(Vector3<f64>, Vector2<f64>)| {
+    now
+}
+
+/// A step of Gauss and Newton, m and rad.
+fn step(seen: &[(Vector3<f64>, Vector2<f64>)], pose: &Isometry3<f64>) -> Option<Vector6<f64>> {
+    let (mut normal, mut right) = (Matrix6::zeros(), Vector6::zeros());
+    for (point, direction) in seen {
+        let arm = pose.rotation * point;
+        let place = arm + pose.translation.vector;
+        let left = direction - place.xy() / place.z;
+        let slope =
+            Matrix2x3::new(1.0, 0.0, -place.x / place.z, 0.0, 1.0, -place.y / place.z) / place.z;
+        let mut block = nalgebra::Matrix2x6::zeros();
+        block.fixed_columns_mut::<3>(0).copy_from(&slope);
+        block.fixed_columns_mut::<3>(3).copy_from(&(slope * -arm.cross_matrix()));
+        normal += block.tr_mul(&block);
+        right += block.tr_mul(&left);
+    }
+    normal.cholesky().map(|factor| factor.solve(&right))
+}
+
+fn moved(pose: &Isometry3<f64>, step: &Vector6<f64>) -> Isometry3<f64> {
+    let place = pose.translation.vector + step.fixed_rows::<3>(0);
+    let turn = UnitQuaternion::from_scaled_axis(step.fixed_rows::<3>(3).into_owned());
+    Isometry3::from_parts(place.into(), turn * pose.rotation)
+}
+
+/// Squares that a pose leaves; without end where a point would be behind the camera.
+fn left(seen: &[(Vector3<f64>, Vector2<f64>)], pose: &Isometry3<f64>) -> f64 {
+    let of = |(point, direction): &(Vector3<f64>, Vector2<f64>)| {
         let place = pose.rotation * point + pose.translation.vector;
         if place.z > 0.0 {
             (direction - place.xy() / place.z).norm_squared()
@@ -184,7 +221,7 @@ fn refined(seen: &[(Vector3<f64>, Vector2<f64>)], start: Isometry3<f64>) -> (Iso
             f64::INFINITY
         }
     };
-    (pose, seen.iter().map(left).sum())
+    seen.iter().map(of).sum()
 }
 
 #[cfg(test)]
@@ -218,6 +255,31 @@ mod tests {
                 let found = super::pose(&seen(points, &pose)).expect("a pose");
                 let off = (found.inverse() * pose).to_homogeneous() - nalgebra::Matrix4::identity();
                 assert!(off.amax() < 1e-10, "{off}");
+            }
+        }
+    }
+
+    /// Corners of a box in two planes, shown by a lens that is told 2 % too long: the best pose, not one without end.
+    #[test]
+    fn few_corners_of_a_box_tell_its_pose_near_where_it_is() {
+        let all = |k: usize| {
+            let (x, y) = ((k % 4) as f64, (k / 4) as f64);
+            Vector3::new(0.06 * x, 0.06 * y, 0.05 * (k % 2) as f64)
+        };
+        for left_out in 0..12 {
+            let corners: Vec<_> = (0..8).map(|k| all((left_out + 5 * k) % 12)).collect();
+            for turn in (0..20).map(f64::from) {
+                let turn = Vector3::new(0.6 * (1.7 * turn).sin(), 0.6 * (2.3 * turn).cos(), turn);
+                let pose = Isometry3::new(Vector3::new(0.2, 0.3, 0.8), turn);
+                for (scale, near) in [(1.0, 1e-9), (0.98, 0.05)] {
+                    let seen = seen(&corners, &pose).into_iter().map(|(p, d)| (p, d * scale));
+                    let found = super::pose(&seen.collect::<Vec<_>>()).expect("a pose");
+                    let off = found.inverse() * pose;
+                    assert!(
+                        off.translation.vector.norm() < near,
+                        "{left_out} {turn} {scale} {off}"
+                    );
+                }
             }
         }
     }

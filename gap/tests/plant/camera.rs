@@ -1,5 +1,7 @@
 //! Cameras, inclinometers and gauges of unknown zero against the plant's own formulas.
 
+use std::f64::consts::FRAC_PI_2;
+
 use nalgebra::{Isometry3, Matrix4, Point3, Vector3};
 use stiffarm_gap::measurement::{Kind, Row, Sight};
 use stiffarm_gap::observe::{Aim, Bench, Lens, Seen, View};
@@ -146,11 +148,11 @@ fn a_camera_beside_the_arm_shows_a_soft_joint() {
     }
 }
 
-/// With nothing else unknown, both frames to rounding; a board in a plane and a box.
+/// With nothing else unknown, both frames to rounding; a board in a plane and a box. So does a lens that is off by a scale
+/// of 2 %, the camera turned about its sight or not.
 #[test]
-fn a_camera_on_the_tool_gives_both_frames() {
+fn a_camera_on_the_tool_gives_both_frames_and_its_lens() {
     let arm = spatial(Convention::Standard);
-    let tool = Isometry3::new(Vector3::new(0.05, -0.02, 0.1), Vector3::new(0.2, -0.3, 0.5));
     let first = Design {
         shape: Shape::Narrow,
         poses: 1,
@@ -159,24 +161,33 @@ fn a_camera_on_the_tool_gives_both_frames() {
         kind: Kind::Pose { orientation: true },
         seed: 2,
     };
-    let camera = arm.pose(&first.rows(&arm).rows[0].q) * tool;
-    let board =
-        camera * Isometry3::new(Vector3::new(-0.1, -0.05, 0.9), Vector3::new(0.2, 0.3, 1.0));
-    let frames = Frames { base: board.inverse(), tool };
-    for flat in [true, false] {
+    for (flat, turn) in [(true, 0.0), (false, 0.0), (true, FRAC_PI_2), (false, FRAC_PI_2)] {
+        let about_sight = Isometry3::rotation(Vector3::new(0.0, 0.0, turn));
+        let tool = Isometry3::new(Vector3::new(0.05, -0.02, 0.1), Vector3::new(0.2, -0.3, 0.5));
+        let tool = tool * about_sight;
+        let camera = arm.pose(&first.rows(&arm).rows[0].q) * tool;
+        let board =
+            camera * Isometry3::new(Vector3::new(-0.1, -0.05, 0.9), Vector3::new(0.2, 0.3, 1.0));
+        let frames = Frames { base: board.inverse(), tool };
         let corners = corners(flat);
         let design = shown(&arm, Shape::Narrow, &frames, true, &corners);
-        let plant = plant(&arm, &[]).with_frames(frames.clone());
-        let data = plant.measure(&design, EXACT, 0).expect("rows");
-        let data = read(&arm, &data, &bench("tool", &lens(MATRIX, &DISTORTION, ""), &corners));
-        let found = diagnose(&arm, &data, &Options::default()).expect("a diagnosis");
-        let [base, tool] = &found.nuisances[..] else { panic!("{:?}", found.nuisances) };
-        for (is, was) in
-            [base, tool].into_iter().zip([frames.base * arm.base, arm.tool * frames.tool])
-        {
-            let is = Isometry3::new(is.translation.into(), is.rotation.into());
-            let off = (is.inverse() * was).to_homogeneous() - Matrix4::identity();
-            assert!(off.amax() < 1e-9, "{off}");
+        let measured = plant(&arm, &[]).with_frames(frames.clone());
+        let measured = measured.measure(&design, EXACT, 0).expect("rows");
+        let scaled = lens(MATRIX.map(|x| 1.02 * x), &DISTORTION, "fit = [\"matrix\"]");
+        for (lens, near) in [(lens(MATRIX, &DISTORTION, ""), 1e-9), (scaled, 1e-7)] {
+            let data = read(&arm, &measured, &bench("tool", &lens, &corners));
+            let found = diagnose(&arm, &data, &Options::default()).expect("a diagnosis");
+            assert!(found.mistaken.is_none(), "{:?}", found.mistaken);
+            let [base, tool] = &found.nuisances[..] else { panic!("{:?}", found.nuisances) };
+            let was = [frames.base * arm.base, arm.tool * frames.tool];
+            for (is, was) in [base, tool].into_iter().zip(was) {
+                let is = Isometry3::new(is.translation.into(), is.rotation.into());
+                let off = (is.inverse() * was).to_homogeneous() - Matrix4::identity();
+                assert!(off.amax() < near, "{flat} {turn} {off}");
+            }
+            for (constant, was) in found.bench.iter().flat_map(|b| &b.constants).zip(MATRIX) {
+                assert!((constant.value - was).abs() < 1e-4, "{flat} {turn} {constant:?} {was}");
+            }
         }
     }
 }
