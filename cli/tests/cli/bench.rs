@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::support::{Folder, has, list, number, read, run, stiffarm};
+use crate::support::{Folder, REPOSITORY, has, list, number, read, run, stiffarm};
 
 const SOCKETS: &str = "
 [[point]]
@@ -247,6 +247,11 @@ fn recordings_in_sockets_become_measurements() {
             t += 0.01;
         }
     }
+    let stamped: Vec<Vec<f64>> = (log.lines().skip(1))
+        .map(|line| line.split(',').map(|cell| cell.parse().expect("a number")).collect())
+        .collect();
+    let bag = folder.name("held.mcap");
+    std::fs::write(&bag, recorded(&stamped)).expect("a file");
     let log = folder.file("held.csv", &log);
     run(&format!(
         "measurements {log} --quiet --still 0.8s --set point=one --robot irb120 --csv {made}"
@@ -254,9 +259,69 @@ fn recordings_in_sockets_become_measurements() {
     .good();
     let text = read(&made);
     assert_eq!(text.lines().count(), postures.len(), "{text}");
+    // The same of a bag, in which half a second's rests are rows where nothing is said.
+    let of_bag = folder.name("of_bag.csv");
+    let parts = read(&format!("{REPOSITORY}/robots/arms/irb120.toml"));
+    let mut parts = parts.split("[[joint]]");
+    let first = parts.next().unwrap_or_default().to_owned();
+    let joints = (1..).zip(parts).map(|(k, row)| format!("[[joint]]\nname = \"joint_{k}\"{row}"));
+    let named = folder.file("named.toml", &(first + &joints.collect::<String>()));
+    run(&format!("measurements {bag} --quiet --set point=one --robot {named} --csv {of_bag}"))
+        .good();
+    // All but the time, which a bag counts from its first message.
+    let cells = |text: &str| -> Vec<Vec<String>> {
+        let rows: Vec<Vec<&str>> = text.lines().map(|line| line.split(',').collect()).collect();
+        let kept: Vec<usize> =
+            (0..rows[0].len()).filter(|k| !rows[0][*k].starts_with("time")).collect();
+        rows.iter().map(|row| kept.iter().map(|k| row[*k].to_owned()).collect()).collect()
+    };
+    assert_eq!(cells(&text), cells(&read(&of_bag)));
     let told =
         run(&format!("measurements {log} --still 5s --set point=one --robot irb120")).refused();
     assert!(told.contains("no rest of 5 s"), "{told}");
     let told = run(&format!("measurements {all} --set pint=one")).refused();
     assert!(told.contains("`pint` that is set"), "{told}");
+}
+
+/// Seconds and joint values as a recorder of ROS 2 writes `sensor_msgs/JointState` into a bag: the joints by their names, in
+/// another order than the arm's.
+fn recorded(rows: &[Vec<f64>]) -> Vec<u8> {
+    let mut bag = mcap::Writer::new(std::io::Cursor::new(Vec::new())).expect("a bag");
+    let schema = bag.add_schema("sensor_msgs/msg/JointState", "ros2msg", b"").expect("a schema");
+    let none = std::collections::BTreeMap::new();
+    let channel_id = bag.add_channel(schema, "/joint_states", "cdr", &none).expect("a channel");
+    for (sequence, row) in (0..).zip(rows) {
+        // Common Data Representation: numbers stand at multiples of their size behind the first four bytes.
+        let mut data = vec![0, 1, 0, 0];
+        let aligned = |data: &mut Vec<u8>, size: usize| {
+            data.resize(4 + (data.len() - 4).next_multiple_of(size), 0);
+        };
+        let count = |data: &mut Vec<u8>, of: usize| {
+            aligned(data, 4);
+            data.extend(u32::try_from(of).expect("few").to_le_bytes());
+        };
+        let text = |data: &mut Vec<u8>, text: &str| {
+            count(data, text.len() + 1);
+            data.extend(text.bytes().chain([0]));
+        };
+        // Since 1970: a stamp of 0 is none.
+        let nanoseconds = 1_700_000_000_000_000_000 + (1e9 * row[0]).round() as u64;
+        count(&mut data, (nanoseconds / 1_000_000_000) as usize);
+        count(&mut data, (nanoseconds % 1_000_000_000) as usize);
+        text(&mut data, "world");
+        let joints = (1..row.len()).rev();
+        count(&mut data, joints.len());
+        joints.clone().for_each(|joint| text(&mut data, &format!("joint_{joint}")));
+        count(&mut data, joints.len());
+        aligned(&mut data, 8);
+        joints.for_each(|joint| data.extend(row[joint].to_le_bytes()));
+        // Neither velocities nor efforts.
+        count(&mut data, 0);
+        count(&mut data, 0);
+        let (log_time, publish_time) = (nanoseconds, nanoseconds);
+        let header = mcap::records::MessageHeader { channel_id, sequence, log_time, publish_time };
+        bag.write_to_known_channel(&header, &data).expect("a message");
+    }
+    bag.finish().expect("an end");
+    bag.into_inner().into_inner()
 }
