@@ -283,6 +283,21 @@ fn recordings_in_sockets_become_measurements() {
     assert!(told.contains("`pint` that is set"), "{told}");
 }
 
+/// Three of 270 rows agree in all joints to 0.1 mrad with another: they are chosen by what they would measure, and say nothing
+/// of the noise, which is 0.1 mm along each axis.
+#[test]
+fn joints_that_agree_by_chance_are_no_repeats() {
+    let folder = Folder::new();
+    let data = folder.name("run.csv");
+    run(&format!("simulate panda --measure point --poses 90 --payload 0kg --noise-position 0.1mm --effect 'joint_offset@joint 4=3mrad' --effect 'joint_compliance@joint 2=2e-4' --seed 3 --csv {data}")).good();
+    let found = run(&format!("diagnose panda {data} --json -")).json();
+    let noise = &found["gap"]["noise"];
+    assert_eq!(noise["position_from"], "residual", "{noise}");
+    let true_noise = 1e-4 * f64::sqrt(3.0);
+    assert!((number(&noise["position_rms"]) / true_noise - 1.0).abs() < 0.1, "{noise}");
+    assert_eq!(found["unexplained"]["present"], false, "{}", found["unexplained"]);
+}
+
 /// Seconds and joint values as a recorder of ROS 2 writes `sensor_msgs/JointState` into a bag: the joints by their names, in
 /// another order than the arm's.
 fn recorded(rows: &[Vec<f64>]) -> Vec<u8> {

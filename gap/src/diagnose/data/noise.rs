@@ -8,6 +8,8 @@ use super::problem::Problem;
 use crate::diagnose::options::Options;
 use crate::diagnose::report::NoiseReport;
 use crate::infer::constants::UNEXPLAINED;
+use crate::measurement::Row;
+use crate::observe::{Aim, Seen};
 
 /// Fewer repeats than this (rows beyond the first of each pose and load) say nothing of the noise.
 const LEAST_REPEATS: usize = 3;
@@ -210,6 +212,17 @@ fn square(gap: &Vector6<f64>, first: usize) -> f64 {
     gap.fixed_rows::<3>(first).norm_squared()
 }
 
+/// Whether a row that agrees with another says how both scatter. Where a ball only lies in its socket all that varies are
+/// the joints: rows in which these happen to agree vary less than the others, unless the file names them one pose.
+fn can_repeat(row: &Row) -> bool {
+    let reads_more = |aim: &Aim| match aim.seen {
+        Seen::Point => false,
+        Seen::Plane => row.measured[0] != 0.0,
+        _ => true,
+    };
+    row.pose.is_some() || row.aim.as_deref().is_none_or(reads_more)
+}
+
 /// What repeats say of one kind: rows of one pose with the same load, marker and direction of approach,
 /// at one visit or at several.
 struct Repeats {
@@ -240,6 +253,7 @@ impl Repeats {
         per_row: f64,
     ) -> Option<Self> {
         let visits = &problem.visits;
+        rows.retain(|row| can_repeat(&problem.data.rows[*row]));
         rows.sort_by_key(|row| (visits.repeats[*row], visits.of_row[*row]));
         let mean = |rows: &[usize]| {
             rows.iter().map(|row| gap(*row)).sum::<Vector6<f64>>() / rows.len() as f64
