@@ -1,5 +1,7 @@
 //! The rows by which mistakes are judged: spread over the file, each with what belongs to it.
 
+use core::f64::consts::GOLDEN_RATIO;
+
 use nalgebra::Vector6;
 use stiffarm_kernels::generic::Arm;
 
@@ -49,11 +51,10 @@ fn thinned(data: &Measurements, rows: &[usize], most: usize) -> Vec<usize> {
 /// Enough corners of a picture, in no row of the board: by multiples of the golden ratio, of which each lies far from those
 /// before it.
 fn spread(picture: &[usize]) -> Vec<usize> {
-    const GOLDEN: f64 = 0.618_033_988_749_894_9;
     if picture.len() <= CORNERS {
         return picture.to_vec();
     }
-    let at = |k: usize| ((k as f64 * GOLDEN).fract() * picture.len() as f64) as usize;
+    let at = |k: usize| ((k as f64 * GOLDEN_RATIO).fract() * picture.len() as f64) as usize;
     (0..CORNERS).map(|k| picture[at(k)]).collect()
 }
 

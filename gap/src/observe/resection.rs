@@ -3,8 +3,8 @@
 use core::iter::successors;
 
 use nalgebra::{
-    DMatrix, Isometry3, Matrix2x3, Matrix3, Matrix3x4, Matrix6, Rotation3, Unit, UnitQuaternion,
-    Vector2, Vector3, Vector6,
+    DMatrix, Isometry3, Matrix2x3, Matrix2x6, Matrix3, Matrix3x4, Matrix6, Rotation3, Unit,
+    UnitQuaternion, Vector2, Vector3, Vector6,
 };
 
 /// Directions that differ by less than this part of an object's size make it flat.
@@ -196,16 +196,23 @@ fn step(seen: &[(Vector3<f64>, Vector2<f64>)], pose: &Isometry3<f64>) -> Option<
         let left = direction - place.xy() / place.z;
         let slope =
             Matrix2x3::new(1.0, 0.0, -place.x / place.z, 0.0, 1.0, -place.y / place.z) / place.z;
-        let mut block = nalgebra::Matrix2x6::zeros();
-        block.fixed_columns_mut::<3>(0).copy_from(&slope);
-        block.fixed_columns_mut::<3>(3).copy_from(&(slope * -arm.cross_matrix()));
+        let block = by_pose(&slope, &arm);
         normal += block.tr_mul(&block);
         right += block.tr_mul(&left);
     }
     normal.cholesky().map(|factor| factor.solve(&right))
 }
 
-fn moved(pose: &Isometry3<f64>, step: &Vector6<f64>) -> Isometry3<f64> {
+/// By how much what is seen changes with the pose, by its change with the place of a point that is `arm` away from the
+/// pose's origin: m and rad, as [`moved`] takes them.
+pub(super) fn by_pose(by_place: &Matrix2x3<f64>, arm: &Vector3<f64>) -> Matrix2x6<f64> {
+    let mut block = Matrix2x6::zeros();
+    block.fixed_columns_mut::<3>(0).copy_from(by_place);
+    block.fixed_columns_mut::<3>(3).copy_from(&(by_place * -arm.cross_matrix()));
+    block
+}
+
+pub(super) fn moved(pose: &Isometry3<f64>, step: &Vector6<f64>) -> Isometry3<f64> {
     let place = pose.translation.vector + step.fixed_rows::<3>(0);
     let turn = UnitQuaternion::from_scaled_axis(step.fixed_rows::<3>(3).into_owned());
     Isometry3::from_parts(place.into(), turn * pose.rotation)

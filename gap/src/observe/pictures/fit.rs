@@ -2,14 +2,13 @@
 //! arm and lens together goes on, whatever the distortion.
 
 use nalgebra::{
-    DMatrix, DVector, Isometry3, Matrix2xX, Matrix6, Matrix6xX, Point3, UnitQuaternion, Vector2,
-    Vector3, Vector6,
+    DMatrix, DVector, Isometry3, Matrix2xX, Matrix6, Matrix6xX, Point3, Vector2, Vector3, Vector6,
 };
 
 use super::Picture;
 use crate::observe::Lens;
 use crate::observe::lens::CONSTANTS;
-use crate::observe::resection::pose;
+use crate::observe::resection::{by_pose, moved, pose};
 
 /// Steps of the least squares at most, the gain of the last one, and the damping of the first (Marquardt 1963).
 const STEPS: usize = 100;
@@ -94,9 +93,7 @@ impl Pictures<'_> {
                 let place = arm + board.translation.vector;
                 let (by_place, by_constants) = self.lens.slopes(&place);
                 let left = at - self.lens.shows(&place);
-                let mut by_pose = nalgebra::Matrix2x6::zeros();
-                by_pose.fixed_columns_mut::<3>(0).copy_from(&by_place);
-                by_pose.fixed_columns_mut::<3>(3).copy_from(&(by_place * -arm.cross_matrix()));
+                let by_pose = by_pose(&by_place, &arm);
                 let by_lens = Matrix2xX::from_fn(count, |r, c| by_constants[(r, self.free[c])]);
                 own += by_pose.tr_mul(&by_pose);
                 own_right += by_pose.tr_mul(&left);
@@ -121,13 +118,11 @@ impl Pictures<'_> {
         let step = normal.cholesky()?.solve(&right);
         let mut all = [0.0; CONSTANTS];
         self.free.iter().zip(step.iter()).for_each(|(k, by)| all[*k] = *by);
-        let moved = self.views.iter().zip(&views).map(|((board, picture), (own, cross, right))| {
+        let views = self.views.iter().zip(&views).map(|((board, picture), (own, cross, right))| {
             let by: Vector6<f64> = own.solve(&(right - cross * &step));
-            let turn = UnitQuaternion::from_scaled_axis(by.fixed_rows::<3>(3).into_owned());
-            let place = board.translation.vector + by.fixed_rows::<3>(0);
-            (Isometry3::from_parts(place.into(), turn * board.rotation), picture.clone())
+            (moved(board, &by), picture.clone())
         });
-        Some(Pictures { lens: self.lens.moved(&all), views: moved.collect(), ..self.clone() })
+        Some(Pictures { lens: self.lens.moved(&all), views: views.collect(), ..self.clone() })
     }
 }
 
