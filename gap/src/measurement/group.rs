@@ -10,6 +10,11 @@ use super::Row;
 /// degree.
 const SAME: f64 = 1e-4;
 
+/// The same where the joints are all that is read, the ball only lying in its socket: they differ by what the socket
+/// leaves free. That is 0.3 mm at most in what people print, three standard deviations of a difference of two, a
+/// quarter of a metre from the joint; and nobody takes half a degree for another posture.
+const SAME_BY_HAND: f64 = 5e-3;
+
 /// Least side of a cell of the grid in which neighbours are looked up, in the distance within which they
 /// are such: what is near a point then lies in its cell and one beside it, along each coordinate. Of n
 /// coordinates the side is n: (1 + 2/n)ⁿ < e² cells are looked up on average, and each holds few.
@@ -78,20 +83,24 @@ impl Near {
 /// Numbers the poses in the order in which they first appear; returns how many there are.
 ///
 /// With a `pose` column its ids decide. Without one, rows with the same readings, to the resolution of
-/// a controller, are one pose, even if other poses were measured between them. Rows of two sessions are
-/// never one pose.
+/// a controller (of a socket, where they are all that is read), are one pose, even if other poses were
+/// measured between them. Rows of two sessions are never one pose.
 pub(crate) fn assign(rows: &mut [Row]) -> usize {
     #[derive(PartialEq, Eq, Hash)]
     enum Key<'r> {
         Id(&'r str),
-        Readings(usize),
+        Readings(bool, usize),
     }
-    let (mut seen, mut readings) = (HashMap::new(), Near::new(SAME));
+    let mut seen = HashMap::new();
+    let mut readings = [SAME, SAME_BY_HAND].map(Near::new);
     let mut groups = Vec::with_capacity(rows.len());
     for row in &*rows {
         let key = match &row.pose {
             Some(id) => Key::Id(id),
-            None => Key::Readings(readings.kind(&row.q)),
+            None => {
+                let by_hand = row.reads_joints_alone();
+                Key::Readings(by_hand, readings[usize::from(by_hand)].kind(&row.q))
+            }
         };
         let next = seen.len();
         groups.push(*seen.entry((row.session.as_deref(), key)).or_insert(next));
@@ -104,6 +113,8 @@ pub(crate) fn assign(rows: &mut [Row]) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::observe::{Aim, Seen};
+    use nalgebra::Vector6;
 
     fn row(q: &[f64], pose: Option<&str>) -> Row {
         let pose = pose.map(str::to_owned);
@@ -145,6 +156,21 @@ mod tests {
             }
         }
         assert!(firsts.len() > 20, "{}", firsts.len());
+    }
+
+    /// In a socket the joints of one posture differ by what the socket leaves free; a tracker's rows of
+    /// the same readings are other poses.
+    #[test]
+    fn what_lies_in_a_socket_is_one_pose_within_its_play() {
+        let read = |q: f64| row(&[q, 0.2], None);
+        let lies = |q: f64, name: &str| Row {
+            aim: Some(Box::new(Aim::at(Seen::Point, name))),
+            ..read(q)
+        };
+        let rows = vec![lies(0.1, "a"), lies(0.102, "a"), lies(0.12, "a"), read(0.1), read(0.102)];
+        assert_eq!(groups(rows), (4, vec![0, 0, 1, 2, 3]));
+        let probed = Row { measured: Vector6::repeat(1e-3), ..lies(0.102, "a") };
+        assert_eq!(groups(vec![lies(0.1, "a"), probed]), (2, vec![0, 1]));
     }
 
     #[test]

@@ -255,6 +255,12 @@ impl Row {
             _ => kind.components(),
         }
     }
+
+    /// Whether its joints are all that is read: a point that only lies in its socket, or on its plate.
+    pub(crate) fn reads_joints_alone(&self) -> bool {
+        let lies = |aim: &Aim| matches!(aim.seen, Seen::Point | Seen::Plane);
+        self.aim.as_deref().is_some_and(lies) && self.measured == Vector6::zeros()
+    }
 }
 
 /// A column that has no meaning here.

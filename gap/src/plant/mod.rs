@@ -88,6 +88,17 @@ pub enum PlantError {
         /// The row's line.
         line: u64,
     },
+    /// The ball is not in its socket.
+    #[error(
+        "{file}: line {line}: no small move of the joints brings the ball into its socket: the arm is stretched \
+         there: bend it, or plan other postures (--seed)"
+    )]
+    Unseated {
+        /// What the rows are called.
+        file: String,
+        /// The row's line.
+        line: u64,
+    },
 }
 
 /// The real arm.

@@ -12,8 +12,8 @@ pub struct Moment {
     pub index: usize,
     /// That of the first row of its session.
     pub first: usize,
-    /// Readings minus those of the row before, n, rad (m if prismatic); 0 at the first row of a
-    /// session.
+    /// Readings minus those of the row before, n, rad (m if prismatic); 0 at the first row of a session, and
+    /// where that row is of the same pose: the arm did not move, and what differs is noise.
     pub last_move: Vec<f64>,
     /// Temperature minus that of the first row of all, K; 0 without the column.
     pub warming: f64,
@@ -59,12 +59,14 @@ impl<'d> Moments<'d> {
         let (row, cold) = (&self.rows[index], self.rows[0].temperature);
         let session = self.sessions.partition_point(|(first, _)| *first <= index) - 1;
         let (first, stream) = &self.sessions[session];
-        let before = &self.rows[index.saturating_sub(1).max(*first)].q;
+        let before = &self.rows[index.saturating_sub(1).max(*first)];
         let start = self.rows[*first].time;
+        let rests = stream.is_none() && before.group == row.group;
+        let moved = |(now, then): (&f64, &f64)| if rests { 0.0 } else { now - then };
         Moment {
             index,
             first: *first,
-            last_move: row.q.iter().zip(before).map(|(now, then)| now - then).collect(),
+            last_move: row.q.iter().zip(&before.q).map(moved).collect(),
             warming: row.temperature.zip(cold).map_or(0.0, |(now, first)| now - first),
             clock: row.time.zip(start).map_or((index - first) as f64, |(now, then)| now - then),
             stream: stream.clone(),
@@ -88,6 +90,7 @@ mod tests {
     #[test]
     fn moves_warmth_and_time_count_from_the_first_row() {
         let mut rows = vec![row(&[0.1], Vector6::zeros()), row(&[0.4], Vector6::zeros())];
+        rows[1].group = 1;
         rows[0].temperature = Some(20.0);
         rows[1].temperature = Some(21.5);
         let data = table(rows, Kind::Pose { orientation: false });
@@ -101,6 +104,7 @@ mod tests {
     #[test]
     fn time_and_moves_begin_anew_with_a_session_and_warmth_does_not() {
         let of = |session: &str, q: f64, time: f64| Row {
+            group: (10.0 * q) as usize,
             session: Some(session.to_owned()),
             time: Some(time),
             temperature: Some(20.0 + q),
@@ -113,5 +117,15 @@ mod tests {
         assert_eq!((moments[2].last_move[0], moments[2].first, moments[3].index), (0.0, 2, 3));
         assert!((moments[3].last_move[0] - 0.1).abs() < 1e-15);
         assert!((moments[2].warming - 0.7).abs() < 1e-14);
+    }
+
+    /// A ball that is put into its socket again at one posture: the joints' differences are no moves.
+    #[test]
+    fn within_a_pose_nothing_moves() {
+        let of = |q, group| Row { group, ..row(&[q], Vector6::zeros()) };
+        let rows = vec![of(0.1, 0), of(0.8, 1), of(0.8 - 1e-4, 1), of(0.1 + 1e-4, 0)];
+        let data = table(rows, Kind::Pose { orientation: false });
+        let moves: Vec<f64> = moments(&data).iter().map(|m| m.last_move[0]).collect();
+        assert_eq!(moves, [0.0, 0.8 - 0.1, 0.0, 0.1 + 1e-4 - (0.8 - 1e-4)]);
     }
 }

@@ -9,7 +9,6 @@ use crate::diagnose::options::Options;
 use crate::diagnose::report::NoiseReport;
 use crate::infer::constants::UNEXPLAINED;
 use crate::measurement::Row;
-use crate::observe::{Aim, Seen};
 
 /// Fewer repeats than this (rows beyond the first of each pose and load) say nothing of the noise.
 const LEAST_REPEATS: usize = 3;
@@ -212,15 +211,10 @@ fn square(gap: &Vector6<f64>, first: usize) -> f64 {
     gap.fixed_rows::<3>(first).norm_squared()
 }
 
-/// Whether a row that agrees with another says how both scatter. Where a ball only lies in its socket all that varies are
-/// the joints: rows in which these happen to agree vary less than the others, unless the file names them one pose.
+/// Whether a row that agrees with another says how both scatter: rows in which the joints are all that is read and
+/// happen to agree vary less than the others, unless the file names them one pose.
 fn can_repeat(row: &Row) -> bool {
-    let reads_more = |aim: &Aim| match aim.seen {
-        Seen::Point => false,
-        Seen::Plane => row.measured[0] != 0.0,
-        _ => true,
-    };
-    row.pose.is_some() || row.aim.as_deref().is_none_or(reads_more)
+    row.pose.is_some() || !row.reads_joints_alone()
 }
 
 /// What repeats say of one kind: rows of one pose with the same load, marker and direction of approach,
