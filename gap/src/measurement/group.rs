@@ -163,10 +163,8 @@ mod tests {
     #[test]
     fn what_lies_in_a_socket_is_one_pose_within_its_play() {
         let read = |q: f64| row(&[q, 0.2], None);
-        let lies = |q: f64, name: &str| Row {
-            aim: Some(Box::new(Aim::at(Seen::Point, name))),
-            ..read(q)
-        };
+        let lies =
+            |q: f64, name: &str| Row { aim: Some(Box::new(Aim::at(Seen::Point, name))), ..read(q) };
         let rows = vec![lies(0.1, "a"), lies(0.102, "a"), lies(0.12, "a"), read(0.1), read(0.102)];
         assert_eq!(groups(rows), (4, vec![0, 0, 1, 2, 3]));
         let probed = Row { measured: Vector6::repeat(1e-3), ..lies(0.102, "a") };

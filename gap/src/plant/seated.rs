@@ -9,23 +9,23 @@ use crate::observe::Seen;
 /// Step of the joints by which a derivative is taken, rad or m.
 const STEP: f64 = 1e-6;
 
-/// Rounds at most; ordinary postures need four.
+/// Rounds at most; ordinary postures need three.
 const ROUNDS: usize = 60;
 
-/// A ball this near its place lies in it, m: far below any play, far above the rounding of derivatives.
+/// A ball this near its place lies in it, m, and joints that move by less have settled: far below any play, far
+/// above the rounding of derivatives.
 const SEATED: f64 = 1e-9;
 
-/// No joint moves by more in a round, rad or m: of a posture in which the arm is stretched a step of Newton's is
-/// anything.
-const LARGEST: f64 = 0.05;
+/// Damping at first, m²/rad²: it is felt where a joint's turn moves the ball by less than a millimetre per radian.
+const DAMPING: f64 = 1e-6;
 
 impl Plant {
     /// Measurements of points in places with the joints moved, by as little as can be, until the reading of the
     /// point from its place is 0: what such a file has no column for. The play that was drawn as noise stays in
-    /// the joints. Rows of other instruments stay as they are.
+    /// the joints, as far as they can follow it. Rows of other instruments stay as they are.
     ///
     /// # Errors
-    /// As [`Plant::measure`], and [`PlantError::Unseated`].
+    /// As [`Plant::measure`], and [`PlantError::Unseated`] where the socket is farther off than its play.
     pub fn seated(&self, measured: &Measurements) -> Result<Measurements, PlantError> {
         let is_held = |row: usize| {
             measured.rows[row].aim.as_deref().is_some_and(|aim| aim.seen == Seen::Point)
@@ -46,14 +46,12 @@ impl Plant {
             .zip(&first)
             .map(|(row, exact)| measured.rows[*row].measured.fixed_rows::<3>(0) - exact);
         let noise: Vec<Vector3<f64>> = noise.collect();
-        let mut now = first;
-        for round in 0.. {
-            let off: Vec<_> = now.iter().zip(&noise).map(|(exact, noise)| exact + noise).collect();
-            let Some(astray) = off.iter().position(|off| off.norm() > SEATED) else { break };
-            if round == ROUNDS {
-                let (file, line) = (measured.file.clone(), measured.rows[held[astray]].line);
-                return Err(PlantError::Unseated { file, line });
-            }
+        let off = |now: &[Vector3<f64>]| -> Vec<Vector3<f64>> {
+            now.iter().zip(&noise).map(|(exact, noise)| exact + noise).collect()
+        };
+        let (mut now, mut damping) = (first, vec![DAMPING; held.len()]);
+        for _ in 0..ROUNDS {
+            let left = off(&now);
             let mut slopes = vec![DMatrix::zeros(3, joints); held.len()];
             for joint in 0..joints {
                 let mut moved = seated.clone();
@@ -62,16 +60,36 @@ impl Plant {
                     slope.set_column(joint, &((then - now) / STEP));
                 }
             }
-            for ((row, slope), off) in held.iter().zip(&slopes).zip(&off) {
-                // Levenberg and Marquardt: s/(s² + d²) is 1/(2d) at most, and nothing as the ball comes home.
-                let damping = off.norm_squared() / (2.0 * LARGEST).powi(2);
-                let squares = slope * slope.transpose() + DMatrix::identity(3, 3) * damping;
-                let Some(across) = squares.cholesky() else { continue };
-                let back = slope.tr_mul(&across.solve(&-off));
-                let q = &mut seated.rows[*row].q;
-                q.iter_mut().zip(back.iter()).for_each(|(q, back)| *q += back);
+            // A step of Levenberg and Marquardt: where the arm is stretched one of Newton's is anything.
+            let mut tried = seated.clone();
+            let mut farthest = 0.0_f64;
+            for (k, row) in held.iter().enumerate().filter(|(k, _)| left[*k].norm() > SEATED) {
+                let squares = &slopes[k] * slopes[k].transpose();
+                let damped = squares + DMatrix::identity(3, 3) * damping[k];
+                let Some(across) = damped.cholesky() else { continue };
+                let back = slopes[k].tr_mul(&across.solve(&-left[k]));
+                farthest = farthest.max(back.norm());
+                tried.rows[*row].q.iter_mut().zip(back.iter()).for_each(|(q, back)| *q += back);
             }
-            now = read(&seated)?;
+            if farthest <= SEATED {
+                break;
+            }
+            let then = read(&tried)?;
+            for (k, (row, after)) in held.iter().zip(off(&then)).enumerate() {
+                if after.norm() < left[k].norm() {
+                    seated.rows[*row].q.clone_from(&tried.rows[*row].q);
+                    now[k] = then[k];
+                    damping[k] /= 10.0;
+                } else {
+                    damping[k] *= 10.0;
+                }
+            }
+        }
+        let is_astray =
+            |(left, play): (Vector3<f64>, &Vector3<f64>)| left.norm() > play.norm() + SEATED;
+        if let Some(astray) = off(&now).into_iter().zip(&noise).position(is_astray) {
+            let (file, line) = (measured.file.clone(), measured.rows[held[astray]].line);
+            return Err(PlantError::Unseated { file, line });
         }
         held.iter().for_each(|row| seated.rows[*row].measured.fill(0.0));
         Ok(seated)

@@ -4,13 +4,14 @@ use nalgebra::{Isometry3, Point3, Unit, Vector3, Vector6};
 use stiffarm_gap::measurement::{Kind, Row};
 use stiffarm_gap::observe::{Aim, Bench, Lens, Pair, Plane, Seen, View};
 use stiffarm_gap::plant::design::{Design, Shape};
-use stiffarm_gap::plant::{Frames, Noise, csv};
+use stiffarm_gap::plant::{Frames, Noise, PlantError, csv};
 use stiffarm_gap::simulate::simulate;
 use stiffarm_gap::{Diagnosis, Measurements, Options, diagnose, diagnose_with};
 use stiffarm_kernels::generic::{Arm, Convention};
 
 use crate::arms::{
-    EXACT, SOFT, layout, loaded, plant, reading, rows, soft_joint_is_found, spatial, sprung,
+    EXACT, SOFT, arm, layout, loaded, plant, reading, row, rows, soft_joint_is_found, spatial,
+    sprung,
 };
 
 const NOISE: Noise = Noise { position: 2e-5, rotation: 0.0 };
@@ -79,6 +80,33 @@ fn sockets_show_a_soft_joint() {
             assert!((constant.value - was).abs() < half, "{thing:?} {was}");
         }
     }
+}
+
+/// Two links that are all but stretched out: by an inward play the elbow bends, an outward one no joint follows, and a
+/// socket beyond reach holds no ball.
+#[test]
+fn a_stretched_arm_is_seated_as_far_as_it_reaches() {
+    let arm = arm(Convention::Standard, vec![row(0.0, 0.0, 0.5, 0.0), row(0.0, 0.0, 0.4, 0.0)]);
+    let seated = |far: f64, play: f64| {
+        let place = Vector3::new(far, 0.0, 0.0);
+        let mut row = reading(&[0.0, 1e-3], [0.0; 6]);
+        row.aim = Some(Box::new(Aim::known(Seen::Point, "", View::Point(place))));
+        let data = plant(&arm, &[]).measure(&rows(SOCKETS, vec![row]), EXACT, 0).expect("a row");
+        let mut data = data;
+        data.rows[0].measured += Vector6::new(play, 0.0, 1e-5, 0.0, 0.0, 0.0);
+        plant(&arm, &[]).seated(&data).map(|data| {
+            let pose = arm.pose(&data.rows[0].q);
+            (data.rows[0].q[1].abs(), pose.translation.vector)
+        })
+    };
+    let (elbow, ball) = seated(0.9 - 2e-4, 0.0).expect("within reach");
+    assert!((ball - Vector3::new(0.9 - 2e-4, 0.0, 0.0)).norm() < 1e-8, "{ball}");
+    // c² = a² + b² + 2ab cos q: 2e-4 of reach are a turn of 42 mrad.
+    assert!((elbow - 0.042_43).abs() < 1e-4, "{elbow}");
+    let (elbow, ball) = seated(0.9, -1e-4).expect("within the play");
+    assert!(elbow < 1e-3 && (ball.x - 0.9).abs() < 1e-6, "{elbow} {ball}");
+    let refused = seated(0.901, 0.0).expect_err("beyond reach");
+    assert!(matches!(refused, PlantError::Unseated { line: 2, .. }), "{refused}");
 }
 
 #[test]
