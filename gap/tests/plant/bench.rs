@@ -91,8 +91,8 @@ fn a_stretched_arm_is_seated_as_far_as_it_reaches() {
         let place = Vector3::new(far, 0.0, 0.0);
         let mut row = reading(&[0.0, 1e-3], [0.0; 6]);
         row.aim = Some(Box::new(Aim::known(Seen::Point, "", View::Point(place))));
-        let data = plant(&arm, &[]).measure(&rows(SOCKETS, vec![row]), EXACT, 0).expect("a row");
-        let mut data = data;
+        let mut data =
+            plant(&arm, &[]).measure(&rows(SOCKETS, vec![row]), EXACT, 0).expect("a row");
         data.rows[0].measured += Vector6::new(play, 0.0, 1e-5, 0.0, 0.0, 0.0);
         plant(&arm, &[]).seated(&data).map(|data| {
             let pose = arm.pose(&data.rows[0].q);
