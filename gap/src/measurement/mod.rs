@@ -193,8 +193,8 @@ pub struct Row {
     /// Id of the pose, as written.
     pub pose: Option<String>,
     /// Rows of one group are one pose, and never stand on both sides of a fold. By the `pose`
-    /// column where there is one; else rows whose readings agree to 1e-4 rad (m), wherever they
-    /// stand.
+    /// column where there is one; else rows whose readings agree to 1e-4 rad (m), to 5e-3 where the
+    /// joints are all that is read, wherever they stand.
     pub group: usize,
     /// Name of the measured point.
     pub marker: Option<String>,

@@ -52,6 +52,9 @@ impl Plant {
         let (mut now, mut damping) = (first, vec![DAMPING; held.len()]);
         for _ in 0..ROUNDS {
             let left = off(&now);
+            if left.iter().all(|left| left.norm() <= SEATED) {
+                break;
+            }
             let mut slopes = vec![DMatrix::zeros(3, joints); held.len()];
             for joint in 0..joints {
                 let mut moved = seated.clone();
