@@ -49,9 +49,7 @@ pub(super) struct Chain {
 /// The chain at some displacements.
 pub(super) struct Shape {
     /// The frame in which each site displaces, in the order of the parts.
-    pub(super) sites: Vec<Matrix4<f64>>,
-    /// The frame of the point of each weight, in the order of the parts.
-    weights: Vec<Matrix4<f64>>,
+    pub(super) frames: Vec<Matrix4<f64>>,
     /// The tool frame.
     pub(super) tool: Matrix4<f64>,
 }
@@ -83,12 +81,8 @@ impl Site {
 }
 
 impl Chain {
-    /// Transforms between which nothing yields or weighs are one.
     pub(super) fn fixed(&mut self, transform: Matrix4<f64>) {
-        match self.parts.last_mut() {
-            Some(Part::Fixed(before)) => *before *= transform,
-            _ => self.parts.push(Part::Fixed(transform)),
-        }
+        self.parts.push(Part::Fixed(transform));
     }
 
     pub(super) fn weight(&mut self, point: Vector3<f64>, force: Vector3<f64>) {
@@ -113,19 +107,19 @@ impl Chain {
 
     /// Where everything is at some displacements.
     pub(super) fn shape(&self, unknowns: &[f64]) -> Shape {
-        let (mut sites, mut weights) = (Vec::new(), Vec::new());
+        let mut frames = Vec::new();
         let mut frame = Matrix4::identity();
         for part in &self.parts {
             match part {
                 Part::Fixed(transform) => frame *= transform,
                 Part::Site(site) => {
-                    sites.push(frame);
+                    frames.push(frame);
                     frame *= displaced(&site.displacement(unknowns));
                 }
-                Part::Weight { .. } => weights.push(frame),
+                Part::Weight { .. } => {}
             }
         }
-        Shape { sites, weights, tool: frame }
+        Shape { frames, tool: frame }
     }
 
     /// The generalised force of every unknown at some displacements.
@@ -140,18 +134,17 @@ impl Chain {
         let mut block = virial.fixed_view_mut::<3, 3>(0, 0);
         block += 0.5 * cross(&self.couple);
         let mut forces = vec![0.0; self.unknowns];
-        let (mut sites, mut weights) = (shape.sites.iter().rev(), shape.weights.iter().rev());
+        let mut frame = shape.tool;
+        let mut frames = shape.frames.iter().rev();
         for part in self.parts.iter().rev() {
             match part {
-                Part::Fixed(_) => {}
-                Part::Weight { point, force } => {
-                    let Some(frame) = weights.next() else { break };
-                    virial += dyad(force, &carried(frame, point));
-                }
+                Part::Fixed(transform) => frame *= inverse(transform),
+                Part::Weight { point, force } => virial += dyad(force, &carried(&frame, point)),
                 Part::Site(site) => {
-                    let Some(frame) = sites.next() else { break };
+                    let Some(before) = frames.next() else { break };
+                    frame = *before;
                     // The virial in the site's axes.
-                    let own = rotation(frame).tr_mul(&virial) * inverse(frame).transpose();
+                    let own = rotation(before).tr_mul(&virial) * inverse(before).transpose();
                     let displacement = site.displacement(unknowns);
                     for (k, component) in site.components.iter().enumerate() {
                         let motion = site.motion(&displacement, *component);
@@ -168,7 +161,7 @@ impl Chain {
         let shape = self.shape(unknowns);
         let forces = self.forces_of(&shape, unknowns);
         let mut wanted = Vec::with_capacity(self.unknowns);
-        for (site, frame) in self.sites().zip(&shape.sites) {
+        for (site, frame) in self.sites().zip(&shape.frames) {
             let own = &forces[site.first..site.first + site.components.len()];
             wanted.extend(site.law.displacement(own, &rotation(frame)));
         }
@@ -182,7 +175,7 @@ impl Chain {
         let shape = self.shape(&rest);
         let tool = transform::origin(&shape.tool);
         let mut twist = Vector6::zeros();
-        for (site, frame) in self.sites().zip(&shape.sites) {
+        for (site, frame) in self.sites().zip(&shape.frames) {
             for (k, component) in site.components.iter().enumerate() {
                 let motion = frame * site.motion(&Vector6::zeros(), *component) * inverse(frame);
                 let moved = (motion * tool.push(1.0)) * unknowns[site.first + k];
