@@ -227,7 +227,8 @@ def main():
         refused(page, folder, "lin_planar", folder / "ragged.csv", ["measurements", "ragged.csv"])
 
         # The other examples are simulated in the page.
-        for example, finding in (("kr240", "transmission_error"), ("panda", "viscous_friction")):
+        named = {"kr240": "transmission_error", "sockets": "joint_offset", "panda": "viscous_friction"}
+        for example, finding in named.items():
             page.fresh()
             browser.evaluate(f"document.querySelector('[data-example={example}]').click()")
             browser.wait("at('state').textContent && !end && at('work').hidden", 120)
