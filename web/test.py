@@ -110,13 +110,17 @@ def differences(got, told, path=""):
 
 
 def robots(got, told):
-    """The same of robot files: the words between numbers, and the numbers to their last digit but one."""
+    """The same of robot files: the words between numbers, and the numbers of an entry, measured by the largest of them: a
+    product of inertia is what is left of a rotated tensor, and rounded as that is."""
     number = re.compile(r"-?\d+\.?\d*(?:[eE][+-]?\d+)?")
     if number.split(got) != number.split(told):
         yield "the robot file has other words"
-    for ours, theirs in zip(number.findall(got), number.findall(told)):
-        if abs(float(ours) - float(theirs)) > CLOSE * abs(float(theirs)):
-            yield f"the robot file: {ours} for {theirs}"
+    for ours, theirs in zip(got.splitlines(), told.splitlines()):
+        pairs = [(float(a), float(b)) for a, b in zip(number.findall(ours), number.findall(theirs))]
+        for a, b in pairs:
+            size = abs(b) if theirs.startswith("#") else max(abs(value) for _, value in pairs)
+            if abs(a - b) > CLOSE * size:
+                yield f"the robot file: {ours} for {theirs}"
 
 
 def same(page, folder, robot, data, options="", bench=None):

@@ -15,6 +15,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut bindgen = Bindgen::new();
     // A worker of a page that was opened as a file cannot load modules.
     bindgen.input_path(input).out_name("stiffarm").no_modules(true)?.typescript(false);
-    bindgen.remove_producers_section(true).generate(folder)?;
+    // Names are a tenth of what is loaded, and serve debuggers alone.
+    bindgen.remove_name_section(true).remove_producers_section(true).generate(folder)?;
     Ok(())
 }
