@@ -6,6 +6,7 @@
 Screenshots at 400 and 1,400 pixels, light and dark, stay beside the page.
 """
 
+import gzip
 import json
 import os
 import re
@@ -163,6 +164,8 @@ def main():
     if len(sys.argv) != 2:
         sys.exit("error: found other arguments, expected PAGE")
     file = Path(sys.argv[1])
+    loaded = len(gzip.compress(file.read_bytes(), 9))
+    assert loaded <= 3_000_000, f"{loaded:,} bytes are loaded over a network, 3,000,000 are allowed"
     with tempfile.TemporaryDirectory() as folder, Browser() as browser:
         folder = Path(folder)
         for path in (LIN, *(WORKBENCH / name for name in ("arm.toml", "check.csv", "raw.txt", "readings.csv"))):
