@@ -201,6 +201,12 @@ const EXAMPLES = {
     const made = await run(words, new Map());
     await example("kuka_kr240", "kr.csv", bytesOf(made.written.get("<kr")), options);
   },
+  sockets: async () => {
+    const words = ["simulate", "panda", "--measure", "point", "--poses", "90", "--payload", "0kg", "--noise-position", "0.1mm"];
+    words.push("--effect", "joint_offset@joint 4=3mrad", "--effect", "joint_compliance@joint 2=2e-4", "--seed", "3", "--csv", "<sockets");
+    const made = await run(words, new Map());
+    await example("panda", "sockets.csv", bytesOf(made.written.get("<sockets")), "");
+  },
   panda: async () => {
     const words = ["simulate", "panda", "--log", "<log", "--runs", "1"];
     words.push("--effect", "coulomb_friction@joint 1=5", "--effect", "viscous_friction@joint 2=3");

@@ -12,6 +12,8 @@ globalThis.hears = (what, part) => {
   postMessage({ doing: what, part });
 };
 
+globalThis.breaks = (why) => postMessage({ broken: why });
+
 onmessage = async ({ data: { module, words, files } }) => {
   try {
     await wasm_bindgen({ module_or_path: module });

@@ -14,6 +14,10 @@ extern "C" {
     /// not known.
     #[wasm_bindgen(js_namespace = globalThis)]
     fn hears(what: &str, part: f64);
+
+    /// The worker's function of that name: where a defect of the program ended it, and why.
+    #[wasm_bindgen(js_namespace = globalThis)]
+    fn breaks(why: &str);
 }
 
 /// How a command ended.
@@ -52,6 +56,7 @@ impl Files {
 /// names that begin with `<`.
 #[wasm_bindgen]
 pub fn run(words: Vec<String>, files: Files) -> String {
+    std::panic::set_hook(Box::new(|panic| breaks(&panic.to_string())));
     let tell = |what: &str, part: Option<f64>| hears(what, part.unwrap_or(-1.0));
     let host = Host::hearing(words, files.0, Some(tell));
     let ended = stiffarm_cli::run(&host);
