@@ -24,14 +24,11 @@ pub mod excite;
 mod fixture;
 pub mod gap;
 pub mod identify;
-mod infer;
-pub mod io;
 pub mod log;
 pub mod measurement;
 pub mod mistakes;
 pub mod motion;
 pub mod observe;
-mod parallel;
 pub mod performance;
 pub mod plant;
 pub mod pool;
@@ -39,7 +36,6 @@ pub mod predicted;
 pub mod program;
 pub mod readings;
 pub mod report;
-pub mod rng;
 pub mod robot;
 pub mod shrink;
 pub mod simulate;
@@ -48,7 +44,12 @@ pub mod study;
 pub mod whole;
 
 pub use diagnose::{DiagnoseError, Diagnosis, Options, diagnose, diagnose_with};
+pub use infer::rng;
 pub use io::ReadError;
 pub use measurement::Measurements;
 #[doc(hidden)]
 pub use study::withhold;
+
+use infer::parallel;
+use stiffarm_infer as infer;
+pub use stiffarm_io as io;

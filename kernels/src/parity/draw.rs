@@ -4,8 +4,8 @@ use std::vec::Vec;
 
 use crate::Motion;
 use crate::generic::{Arm, Joint};
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
+use chacha20::ChaCha8Rng;
+use chacha20::rand_core::{Rng, SeedableRng};
 
 use super::scale::reach;
 

@@ -68,31 +68,29 @@ impl Kept<'_> {
         let values = DVector::from_vec(values);
         Choice { kept, back, values, candidates: candidates.len(), numbers }
     }
-}
 
-impl<'c> Screen<'c> {
-    /// `candidates` are the first of those that were gathered.
-    pub(crate) fn of(
+    /// The candidates beside what stays of `model`; `candidates` are the first of those that were gathered.
+    pub(crate) fn screen<'c>(
+        &self,
         problem: &Problem<'_>,
         folds: &Folds,
         gathered: &Gathered,
         model: &Model,
-        kept: Kept<'_>,
         candidates: &'c [Candidate],
-    ) -> Self {
-        let choice = kept.choice(problem, model, candidates);
+    ) -> Screen<'c> {
+        let choice = self.choice(problem, model, candidates);
         let sizes: Vec<usize> = candidates.iter().map(|c| c.size).collect();
         let mut prior = held(problem, model, &choice, &sizes);
-        if !kept.free {
+        if !self.free {
             prior.hold(candidates);
         }
-        let candidates_told = if kept.free { &[] } else { candidates };
+        let candidates_told = if self.free { &[] } else { candidates };
         hold_together(problem, model, &choice, candidates_told, &mut prior);
         let mut total = gathered.total.chosen(&choice);
         total.add(&prior);
         let basis = Basis::new(&total.zz);
-        let screen = Self::new(candidates, basis, total, prior);
-        if kept.whole {
+        let screen = Screen::new(candidates, basis, total, prior);
+        if self.whole {
             return screen;
         }
         let chosen =

@@ -110,7 +110,7 @@ impl<'s> Search<'s, '_> {
         kept: Kept<'_>,
         candidates: &'c [Candidate],
     ) -> Screen<'c> {
-        Screen::of(self.problem, self.folds, gathered, &now.fit.model, kept, candidates)
+        kept.screen(self.problem, self.folds, gathered, &now.fit.model, candidates)
     }
 }
 

@@ -1,0 +1,297 @@
+//! How long errors last, and what autocorrelated errors make of a slow pattern by chance.
+//!
+//! Residuals at steps that follow each other are the sum of white noise and a first-order
+//! autoregression. Its share and its correlation time are estimated by restricted maximum likelihood beside a
+//! mean and the pattern itself, which takes from them as it is fitted (Patterson & Thompson 1971; by the
+//! Kalman filter: Harvey & Phillips 1979). Generalised least squares (Aitken 1936) then give the F test of
+//! the pattern.
+
+use nalgebra::{DMatrix, DVector, Vector6};
+use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
+
+use super::constants::SIGNIFICANT;
+
+/// A window of so many correlation times holds the correlation (Sokal: 4 to 10).
+const WINDOW: f64 = 5.0;
+
+/// Shares of what lingers that are tried.
+const SHARES: [f64; 10] = [0.07, 0.15, 0.3, 0.5, 0.65, 0.8, 0.9, 0.95, 0.98, 1.0];
+
+/// The next memory that is tried is longer by this factor; the longest is twice the campaign's.
+const LONGER: f64 = std::f64::consts::SQRT_2;
+
+/// Less of a pattern beside the others is nothing of its own.
+const OWN: f64 = 1e-9;
+
+/// By how much the squares fall with a pattern, beside autocorrelated errors.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Autoregression {
+    /// In units of the variance of a step.
+    fall: f64,
+    /// Numbers beyond those that were fitted.
+    freedom: f64,
+    /// Components in which the pattern shows.
+    components: usize,
+}
+
+/// Of one component what is left, a mean, the pattern that is asked for and each other, a row each, at every step of
+/// time.
+type Series = DMatrix<f64>;
+
+/// The row of the pattern that is asked for.
+const ASKED: usize = 2;
+
+/// How errors forget.
+#[derive(Clone, Copy, Debug)]
+struct Memory {
+    /// The part of their variance that lingers.
+    share: f64,
+    /// What of that is still there a step later.
+    stays: f64,
+}
+
+/// Of a memory: −2 × the logarithm of its restricted likelihood, and the variance of a step.
+#[derive(Clone, Copy, Debug)]
+struct Likely {
+    unlikely: f64,
+    variance: f64,
+}
+
+impl Autoregression {
+    /// Of the components that are `measured`, positions and rotations each with a memory of their own. `told`
+    /// are at each step the residual beside all that follows time, a mean, and what each such effect does, that
+    /// which is asked for first, in units of the noise; `variance` is that of a row. `None` of too few steps.
+    pub fn of(measured: &[usize], told: &[Vec<Vector6<f64>>], variance: f64) -> Option<Self> {
+        let series = |component: &usize| {
+            Series::from_fn(told.len(), told[0].len(), |what, step| told[what][step][*component])
+        };
+        let kinds = [0..3, 3..6].map(|kind| {
+            let own = measured.iter().filter(|component| kind.contains(*component));
+            Self::of_kind(&own.map(series).collect::<Vec<_>>(), variance)
+        });
+        let both = |a: Self, b: Self| Self {
+            fall: a.fall + b.fall,
+            freedom: a.freedom + b.freedom,
+            components: a.components + b.components,
+        };
+        kinds.into_iter().flatten().reduce(both)
+    }
+
+    fn of_kind(all: &[Series], variance: f64) -> Option<Self> {
+        let first = all.first()?;
+        if first.ncols() <= first.nrows() {
+            return None;
+        }
+        let (memory, likely) = likeliest(all);
+        let fitted = (first.nrows() - 1) as f64;
+        let falls: Vec<f64> = all.iter().filter_map(|series| memory.fall(series)).collect();
+        Some(Self {
+            fall: falls.iter().sum::<f64>() / likely.variance.max(variance),
+            freedom: all.len() as f64 * (first.ncols() as f64 - fitted),
+            components: falls.len(),
+        })
+    }
+
+    /// The chance of a fall as large, where the best of `tried` patterns of so many numbers was taken (Bonferroni).
+    pub fn p_value(&self, rank: usize, tried: usize) -> f64 {
+        // A number less than components is one of them all; more are the shape of the pattern.
+        let rank = rank.max(self.components) as f64;
+        let p_value = FisherSnedecor::new(rank, self.freedom).map(|f| f.sf(self.fall / rank));
+        let p_value = p_value.unwrap_or(1.0);
+        if p_value.is_nan() { 1.0 } else { (p_value * tried as f64).min(1.0) }
+    }
+}
+
+impl Memory {
+    /// None: every step is forgotten in the next.
+    const NONE: Self = Self { share: 0.0, stays: 0.0 };
+
+    /// The products of the rows of a series, told so that its steps are independent and of one variance;
+    /// and the logarithm of the determinant of that change.
+    fn independent(self, series: &Series) -> (DMatrix<f64>, f64) {
+        let Self { share, stays } = self;
+        let rows = series.nrows();
+        let (mut products, mut logarithm) = (DMatrix::zeros(rows, rows), 0.0);
+        let (mut expected, mut doubt) = (DVector::zeros(rows), share);
+        for now in series.column_iter() {
+            let variance = doubt + 1.0 - share;
+            let gain = doubt / variance;
+            let new = now - &expected;
+            products.ger(1.0 / variance, &new, &new, 1.0);
+            logarithm += variance.ln();
+            expected.axpy(stays * gain, &new, stays);
+            doubt = stays * stays * doubt * (1.0 - gain) + share * (1.0 - stays * stays);
+        }
+        (products, logarithm)
+    }
+
+    /// By how much the squares fall with the pattern that is asked for, beside the mean and the others; `None` where it
+    /// is nothing of its own.
+    fn fall(self, series: &Series) -> Option<f64> {
+        let (mut p, _) = self.independent(series);
+        let whole = p.diagonal();
+        for k in (1..series.nrows()).filter(|k| *k != ASKED) {
+            if p[(k, k)] > OWN * whole[k] {
+                let (own, column) = (p[(k, k)], p.column(k).into_owned());
+                p.ger(-1.0 / own, &column, &column, 1.0);
+            }
+        }
+        // What is left has lost the pattern as it was fitted.
+        let own = p[(ASKED, ASKED)];
+        (own > OWN * whole[ASKED]).then(|| (p[(0, ASKED)] + own).powi(2) / own)
+    }
+
+    fn likely(self, all: &[Series]) -> Likely {
+        let (mut squares, mut freedom, mut unlikely) = (0.0, 0.0, 0.0);
+        for series in all {
+            let (mut p, logarithm) = self.independent(series);
+            let whole = p.diagonal();
+            unlikely += logarithm;
+            freedom += series.ncols() as f64;
+            // The mean and each pattern take their part.
+            for k in 1..series.nrows() {
+                let own = p[(k, k)];
+                if own > OWN * whole[k] {
+                    let column = p.column(k).into_owned();
+                    p.ger(-1.0 / own, &column, &column, 1.0);
+                    unlikely += own.ln();
+                    freedom -= 1.0;
+                }
+            }
+            squares += p[(0, 0)];
+        }
+        let variance = (squares / freedom).max(f64::MIN_POSITIVE);
+        Likely { unlikely: unlikely + freedom * variance.ln(), variance }
+    }
+}
+
+/// The likeliest memory of those that are tried; none unless it is likelier than by chance.
+fn likeliest(all: &[Series]) -> (Memory, Likely) {
+    let none = (Memory::NONE, Memory::NONE.likely(all));
+    let steps = all[0].ncols() as f64;
+    let memories = std::iter::successors(Some(0.5), |time| Some(time * LONGER))
+        .take_while(|time| *time <= 2.0 * steps)
+        .flat_map(|time: f64| SHARES.map(|share| Memory { share, stays: (-1.0 / time).exp() }));
+    let tried = memories.map(|memory| (memory, memory.likely(all)));
+    let best = tried.min_by(|a, b| a.1.unlikely.total_cmp(&b.1.unlikely));
+    // Two numbers more: twice the logarithm of the ratio is chi-squared (Wilks 1938).
+    let enough = ChiSquared::new(2.0).map_or(f64::INFINITY, |d| d.inverse_cdf(1.0 - SIGNIFICANT));
+    best.filter(|(_, it)| it.unlikely + enough < none.1.unlikely).unwrap_or(none)
+}
+
+/// The correlation time, s, of samples every `step`: half the integral of the correlation over all lags, up
+/// to where the sum no longer matters (Sokal 1997). Parts are independent; what does not count is a hole.
+pub fn correlation_time(parts: &[Vec<Option<f64>>], step: f64) -> f64 {
+    let all = || parts.iter().flatten().filter_map(|x| *x);
+    let mean = all().sum::<f64>() / all().count().max(1) as f64;
+    let at = |lag: usize| {
+        let pairs = parts.iter().flat_map(|part| part.iter().zip(part.iter().skip(lag)));
+        let both = pairs.filter_map(|(a, b)| Some((*a)? - mean).zip(Some((*b)? - mean)));
+        let (sum, count) = both.fold((0.0, 0.0), |(sum, n), (a, b)| (sum + a * b, n + 1.0));
+        if count > 0.0 { sum / count } else { 0.0 }
+    };
+    let whole = at(0);
+    let longest = parts.iter().map(Vec::len).max().unwrap_or(0);
+    let mut time = 0.5;
+    if whole > 0.0 {
+        for lag in 1..longest / 2 {
+            time += at(lag) / whole;
+            if lag as f64 >= WINDOW * time {
+                break;
+            }
+        }
+    }
+    time.max(0.5) * step
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rng::{Rng, Stream};
+
+    /// Steps of a campaign, and the jumps that are tried in it.
+    const STEPS: usize = 180;
+    const JUMPS: usize = 24;
+
+    /// Errors of three components, a third of them of the instrument: they linger over `memory` steps, and
+    /// the first jumps after two fifths of the steps.
+    fn campaign(seed: u64, memory: f64, jump: f64) -> [Vec<f64>; 3] {
+        let mut rng = Rng::new(seed, Stream::Signs);
+        let stays = if memory > 0.0 { (-1.0 / memory).exp() } else { 0.0 };
+        std::array::from_fn(|component| {
+            let mut error = rng.normal();
+            let step = |k: usize| {
+                error = stays * error + (1.0 - stays * stays).sqrt() * rng.normal();
+                let off = if component == 0 && k >= 2 * STEPS / 5 { jump } else { 0.0 };
+                error + off + rng.normal() / 3.0
+            };
+            (0..STEPS).map(step).collect()
+        })
+    }
+
+    /// The best jump beside the errors.
+    fn best(errors: &[Vec<f64>; 3]) -> Vec<Series> {
+        let mean = |of: &[f64]| of.iter().sum::<f64>() / of.len() as f64;
+        let size = |errors: &Vec<f64>, at: usize| mean(&errors[at..]) - mean(&errors[..at]);
+        let fall = |at: usize| {
+            let pairs = (at * (STEPS - at)) as f64 / STEPS as f64;
+            errors.iter().map(|errors| pairs * size(errors, at).powi(2)).sum::<f64>()
+        };
+        let jumps = (1..=JUMPS).map(|k| k * STEPS / (JUMPS + 1));
+        let at = jumps.max_by(|a, b| fall(*a).total_cmp(&fall(*b))).unwrap();
+        let part = (STEPS - at) as f64 / STEPS as f64;
+        let of = |errors: &Vec<f64>| {
+            let (size, whole) = (size(errors, at), mean(errors));
+            Series::from_fn(3, STEPS, |what, k| {
+                let pattern = if k < at { 0.0 } else { size };
+                [errors[k] - whole - pattern + size * part, 1.0, pattern][what]
+            })
+        };
+        errors.iter().map(of).collect()
+    }
+
+    fn is_claimed(seed: u64, memory: f64, jump: f64) -> bool {
+        let series = best(&campaign(seed, memory, jump));
+        let errors = Autoregression::of_kind(&series, 0.0).expect("steps enough");
+        errors.p_value(3, JUMPS) <= SIGNIFICANT
+    }
+
+    #[test]
+    fn a_jump_is_claimed_of_one_campaign_in_twenty_however_long_errors_linger() {
+        for memory in [0.0, 2.0, 8.0, 33.0, 100.0] {
+            let alarms = (0..100).filter(|seed| is_claimed(*seed, memory, 0.0)).count();
+            // More of a hundred where five are allowed come once in 1500 times.
+            assert!(alarms <= 12, "{alarms} of 100 at {memory}");
+        }
+    }
+
+    #[test]
+    fn a_jump_beyond_the_errors_is_found() {
+        for (memory, jump) in [(0.0, 1.0), (2.0, 3.0), (8.0, 10.0)] {
+            let found = (0..40).filter(|seed| is_claimed(*seed, memory, jump)).count();
+            assert!(found >= 36, "{found} of 40: {jump} at {memory}");
+        }
+    }
+
+    /// Errors that wander as far within the campaign do so by steps: none of them is as large as the jump.
+    #[test]
+    fn a_jump_is_told_from_errors_that_wander_as_far() {
+        let found = (0..20).filter(|seed| is_claimed(*seed, 60.0, 3.0)).count();
+        assert!(found >= 18, "{found} of 20");
+    }
+
+    /// As long as it is: what was fitted has not taken it away. In steps, the correlation summed over all lags.
+    #[test]
+    fn memory_is_told_beside_what_was_fitted() {
+        for (memory, low, high) in [(0.0, 0.5, 1.5), (8.0, 8.0, 25.0), (33.0, 25.0, 120.0)] {
+            let mut all: Vec<f64> = (0..21)
+                .map(|seed| {
+                    let Memory { share, stays } = likeliest(&best(&campaign(seed, memory, 0.0))).0;
+                    1.0 + 2.0 * share * stays / (1.0 - stays)
+                })
+                .collect();
+            all.sort_by(f64::total_cmp);
+            assert!((low..high).contains(&all[10]), "{} at {memory}", all[10]);
+        }
+    }
+}

@@ -1,0 +1,42 @@
+//! Inference from normal equations of independent blocks: a campaign's visits, a log's stretches of time.
+//!
+//! **In:** [`Products`] of a model's columns, of candidates' columns and of what is to be explained, block by
+//! block, whatever the observations are.
+//! **Out:** a [`Screen`] that gives the [`Score`] of each candidate beside the model, the squares that it
+//! leaves on blocks that no fit has seen, and each block's share in it, whose signs [`SignFlips`] set at random.
+//! Candidates are [`Ranked`] by the evidence that they add, and the terms of a model of any [`Observations`] are
+//! [`pruned`] by the same.
+//!
+//! Least squares are solved by a [`Basis`], with bounds by [`Squares`]; `autocorrelation` says how long errors
+//! last, `resample` how far a shrink scatters when blocks are drawn again.
+
+mod autocorrelation;
+mod basis;
+mod bounded;
+pub mod constants;
+mod dependent;
+mod evidence;
+mod order;
+pub mod parallel;
+mod products;
+mod rank;
+mod resample;
+pub mod rng;
+mod score;
+mod screen;
+mod select;
+mod signs;
+
+pub use autocorrelation::{Autoregression, correlation_time};
+pub use basis::{Basis, RANK, principal};
+pub use bounded::Squares;
+pub use dependent::Dependent;
+pub use evidence::{Scale, likely_scale};
+pub use order::ordered;
+pub use products::{Choice, Products, starts};
+pub use rank::Ranked;
+pub use resample::{drawn, interval, students_t, two_sided};
+pub use score::{Own, Score, price};
+pub use screen::{Columns, Screen};
+pub use select::{Observations, Terms, Weighed, against, costs, pruned};
+pub use signs::{SignFlips, Signs, deviate, unit};
