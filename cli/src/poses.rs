@@ -9,8 +9,8 @@ use nalgebra::Vector6;
 use stiffarm_gap::dexterity::design::{Plan, Purpose, Station, Suspect, design};
 use stiffarm_gap::diagnose::Nuisance;
 use stiffarm_gap::effects::Catalogue;
+use stiffarm_gap::instrument::{Lens, View};
 use stiffarm_gap::measurement::Dimension;
-use stiffarm_gap::observe::{Lens, View};
 use stiffarm_gap::whole::Whole;
 use stiffarm_kernels::generic::Arm;
 

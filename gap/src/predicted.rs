@@ -73,7 +73,7 @@ fn reading(
 mod tests {
     use super::*;
     use crate::fixture::{known, springy};
-    use crate::observe::{Aim, Seen};
+    use crate::instrument::{Aim, Seen};
     use crate::plant::Plant;
     use crate::plant::design::{Design, Shape};
 

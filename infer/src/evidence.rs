@@ -48,7 +48,7 @@ impl Scale {
     }
 
     /// Independent numbers.
-    pub fn count(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         (self.numbers as f64 * self.independent) as usize
     }
 

@@ -112,7 +112,7 @@ impl Products {
     }
 
     /// In other coordinates of the model, `z t`.
-    pub fn turn(&mut self, t: &DMatrix<f64>) {
+    pub(crate) fn turn(&mut self, t: &DMatrix<f64>) {
         let back = t.transpose();
         self.zz = &back * &self.zz * t;
         self.zr = &back * &self.zr;

@@ -12,7 +12,7 @@ use crate::parallel;
 use crate::rng::{Rng, Stream};
 
 /// Random sign patterns: the least p value is one in so many.
-pub const FLIPS: usize = 999;
+pub(crate) const FLIPS: usize = 999;
 
 /// Candidates whose sums over the blocks are taken together: a product of many columns is blocked.
 const TOGETHER: usize = 64;

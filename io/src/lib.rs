@@ -27,7 +27,7 @@ pub use mistake::{Column, Fault, MOST_MISTAKES, Mistake, ReadError};
 pub use nearest::{did_you_mean, listed, nearest};
 pub use source::{MOST_BYTES, bytes};
 pub use unit::{Dimension, INCH, POUND, Unit, plain, quantity};
-pub use write::{Columns, digits, number, quoted};
+pub use write::{Columns, digits, number, quoted, shown};
 
 pub use mistake::Mistakes;
 pub use source::from_toml;

@@ -27,7 +27,7 @@ const LOOKED_AT: usize = 50;
 impl Separator {
     /// Of a file that begins so: what most lines have; a decimal comma stands within cells, so that commas
     /// do not separate where anything else does.
-    pub fn sniffed(head: &[u8]) -> Separator {
+    pub(crate) fn sniffed(head: &[u8]) -> Separator {
         let lines: Vec<&[u8]> = head
             .split(|b| matches!(b, b'\n' | b'\r'))
             .map(<[u8]>::trim_ascii)

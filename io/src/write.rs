@@ -66,3 +66,31 @@ pub fn quoted(id: Option<&str>) -> String {
     }
     id.to_owned()
 }
+
+/// A number for people: three significant digits.
+pub fn shown(x: f64) -> String {
+    if x == 0.0 || (1e-3..1e6).contains(&x.abs()) {
+        let digits = if x == 0.0 { 0.0 } else { (2.0 - x.abs().log10().floor()).max(0.0) };
+        let text = format!("{x:.*}", digits as usize);
+        return match text.contains('.') {
+            true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+            false => text,
+        };
+    }
+    format!("{x:.2e}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short() {
+        let cases =
+            [(0.0, "0"), (0.01234, "0.0123"), (170.0, "170"), (1234.0, "1234"), (2.5, "2.5")];
+        for (x, text) in cases {
+            assert_eq!(shown(x), text);
+        }
+        assert_eq!(shown(1e9), "1.00e9");
+    }
+}

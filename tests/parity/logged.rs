@@ -9,11 +9,11 @@ use stiffarm::kernels::parity::Comparison;
 use stiffarm::kernels::{Kernels, Output};
 use stiffarm_codegen::robot::Robot;
 use stiffarm_gap::log::corrected::{Corrected, corrected};
-use stiffarm_gap::log::signal::Signals;
 use stiffarm_gap::log::{Log, LogDiagnosis, LogOptions, Model, Names, diagnosed};
 use stiffarm_gap::motion::{Fourier, Limits};
 use stiffarm_gap::plant::motion::{Logged, MotionTruth, MovingPlant, Recording, Side, Stage, csv};
 use stiffarm_gap::rng::{Rng, Stream};
+use stiffarm_gap::signal::Signals;
 
 use crate::compare::{CANCELLED, Draws, ForArm, deviation, known, read};
 

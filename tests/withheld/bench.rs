@@ -2,8 +2,8 @@
 //! bench.
 
 use stiffarm_gap::Options;
+use stiffarm_gap::instrument::{Bench, Seen};
 use stiffarm_gap::measurement::Kind;
-use stiffarm_gap::observe::{Bench, Seen};
 use stiffarm_gap::plant::design::{Design, Shape, beside};
 use stiffarm_gap::plant::{Frames, Noise, effects};
 use stiffarm_gap::study::withhold::{Campaign, Experiment, Report, with_findings};

@@ -2,9 +2,9 @@
 
 use stiffarm_gap::Measurements;
 use stiffarm_gap::gap::Statistics;
+use stiffarm_gap::instrument::View;
 use stiffarm_gap::io::{INCH, POUND};
 use stiffarm_gap::measurement::Row;
-use stiffarm_gap::observe::View;
 
 use crate::terminal::text::{decimals, fixed, short};
 

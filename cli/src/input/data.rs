@@ -7,9 +7,9 @@ use std::path::{Path, PathBuf};
 use stiffarm_gap::Measurements;
 use stiffarm_gap::diagnose::Nuisance;
 use stiffarm_gap::doubts::doubts;
+use stiffarm_gap::instrument::Bench;
 use stiffarm_gap::io::{MOST_MISTAKES, ReadError};
 use stiffarm_gap::measurement::Layout;
-use stiffarm_gap::observe::Bench;
 use stiffarm_kernels::generic::Arm;
 
 use super::quantity::counted;

@@ -6,10 +6,11 @@ use nalgebra::{Isometry3, Point3, Vector3};
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
-use super::{reach, shown, simulated, spread};
+use super::{reach, simulated, spread};
 use crate::diagnose::{Nuisance, rigid};
 use crate::effects::Known;
 use crate::gap::rms;
+use crate::io::shown;
 use crate::measurement::{Measurements, Row, Stands};
 use crate::mistakes::moved;
 use crate::simulate::{Reading, simulate};

@@ -4,9 +4,10 @@ use nalgebra::UnitQuaternion;
 use stiffarm_kernels::generic::Arm;
 
 use super::frames::{FEWEST_POSES, NEARLY_ALL};
-use super::{shown, simulated, spread};
+use super::{simulated, spread};
 use crate::gap::rms;
 use crate::io::Convention;
+use crate::io::shown;
 use crate::measurement::{Kind, Measurements, Row};
 use crate::simulate::Reading;
 

@@ -172,15 +172,6 @@ fn a_zero_is_no_frame_that_stands_elsewhere() {
     assert!((moved - 0.1).abs() < 2e-4 && (turned - 0.1).abs() < 1e-4, "{found:?}");
 }
 
-#[test]
-fn numbers_are_short() {
-    let cases = [(0.0, "0"), (0.01234, "0.0123"), (170.0, "170"), (1234.0, "1234"), (2.5, "2.5")];
-    for (x, text) in cases {
-        assert_eq!(shown(x), text);
-    }
-    assert_eq!(shown(1e9), "1.00e9");
-}
-
 /// Whatever frames base and tool stand in, angles of a controller are no rotation vector.
 #[test]
 fn turns_that_say_they_are_rotation_vectors_are_noticed() {

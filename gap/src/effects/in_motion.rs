@@ -3,8 +3,8 @@
 use stiffarm_kernels::generic::{Arm, Drive};
 
 use super::{Law, Parameter, RobotFile, Spot};
+use crate::log::TorqueSide;
 use crate::log::pace::Pace;
-use crate::log::read::TorqueSide;
 use crate::log::scene::{Column, Domain, Scene};
 
 /// What a link carries beyond what is known of it.

@@ -17,12 +17,12 @@ pub(super) use super::{
     Moves, Over, Parameter, ParameterReport, Place, Quantity, RobotFile, Scene, Spot, Told,
     significant,
 };
+pub(super) use crate::log::TorqueSide;
 pub(super) use crate::log::pace::{ORDERS, PASSES, Pace, round};
-pub(super) use crate::log::read::TorqueSide;
 pub(super) use crate::log::rigid::moved;
 pub(super) use crate::log::scene::{Column, Scene as LogScene};
-pub(super) use crate::log::signal::filter::rate;
 pub(super) use crate::measurement::{Measurements, Row};
+pub(super) use crate::signal::filter::rate;
 pub(super) use crate::simulate::{
     Actual, Moment, Site, beyond_first_order, chord, equilibrium, is_stream, rotation, translation,
 };

@@ -17,7 +17,7 @@ pub use basis::{Basis, norm};
 use columns::{Columns, Suspects};
 
 use crate::effects::Spot;
-use crate::gap::middle;
+use crate::infer::middle;
 use crate::motion::{Fourier, Limits};
 use crate::plant::motion::{Law, Logged, MotionError};
 use crate::rng::{Rng, Stream};

@@ -14,9 +14,9 @@ use super::read::{Log, TorqueSide};
 use super::report::LogDiagnosis;
 use super::rigid::Base;
 use super::scene::Domain;
-use super::signal::Signals;
 use crate::effects::{RobotFile, significant};
 use crate::robot::{self, RobotError};
+use crate::signal::Signals;
 
 /// Samples of a log by which the links' numbers are weighed.
 const SAMPLES: usize = 3000;

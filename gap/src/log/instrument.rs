@@ -13,9 +13,9 @@ use super::model::Acting;
 use super::scene::{Column, Domain};
 use super::search::case::{Case, Simple, Wanted};
 use super::search::fit::{Links, weights};
-use super::signal::{Signals, Span};
 use crate::infer::Basis;
 use crate::parallel;
+use crate::signal::{Signals, Span};
 
 /// Rows that are gone through at once.
 const ROWS: usize = 4096;

@@ -19,12 +19,10 @@ pub mod known;
 pub mod model;
 pub mod options;
 pub mod pace;
-pub mod read;
 pub mod readings;
 pub mod rigid;
 pub mod scene;
 pub mod search;
-pub mod signal;
 mod told;
 mod verdict;
 
@@ -33,6 +31,8 @@ pub use model::Model;
 pub use crate::report::LogDiagnosis;
 pub use crate::report::log as report;
 pub use options::{LogOptions, Refused};
-pub use read::{Format, Hole, Log, Names, Opened, Run, Signal, TorqueSide};
 pub use scene::Domain;
+pub use stiffarm_observe::log::{
+    self as read, Clock, Format, Hole, Log, Names, Opened, Run, Signal, TorqueSide,
+};
 pub use verdict::{diagnose, diagnosed, diagnosed_with};

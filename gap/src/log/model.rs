@@ -11,9 +11,9 @@ use super::rigid::Base;
 use super::scene::{Column, Domain, Scene};
 use super::search::case::{Case, Simple, Wanted};
 pub use super::search::springs::Springs;
-use super::signal::Signals;
 use super::verdict::loaded;
 use crate::measurement::Body;
+use crate::signal::Signals;
 
 /// An effect at a place, with its numbers.
 #[derive(Clone)]

@@ -2,8 +2,8 @@
 
 use core::ops::RangeInclusive;
 
-use super::signal::Signals;
-use crate::gap::ascending;
+use crate::infer::ascending;
+use crate::signal::Signals;
 
 /// Periods per turn of a ripple that are looked at: what turns once is the weights' and a counterbalance's.
 pub const ORDERS: RangeInclusive<usize> = 2..=400;

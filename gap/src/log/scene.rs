@@ -10,7 +10,7 @@ use stiffarm_kernels::generic::Arm;
 
 use super::read::TorqueSide;
 use super::rigid::works::Works;
-use super::signal::Signals;
+use crate::signal::Signals;
 
 /// What the rows are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]

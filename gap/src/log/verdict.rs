@@ -20,10 +20,10 @@ use super::search::residual::dependences;
 use super::search::springs::Springs;
 use super::search::unseen::Unseen;
 use super::search::{self, Round, Search, effective};
-use super::signal::Signals;
 use super::told::{Before, Told};
 use crate::measurement::Body;
 use crate::report::log::{Evidence, Filter, LogDiagnosis, Unexplained};
+use crate::signal::Signals;
 
 /// A joint that is slower than this part of its largest speed counts as standing.
 const STILL: f64 = 0.005;

@@ -14,8 +14,8 @@ use super::kind::{Entry, Mistake};
 use super::search::{ORDINARY, Search};
 use crate::diagnose::{Options, Problem, aligned, prior_penalty, refit};
 use crate::gap::rms;
+use crate::instrument::View;
 use crate::measurement::{Kind, Measurements, Row};
-use crate::observe::View;
 
 /// Halvings of the step from one zero that is tried to the next, 15°: to a tenth of a milliradian.
 const HALVINGS: usize = 12;

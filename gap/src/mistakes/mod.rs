@@ -22,7 +22,7 @@ use crate::diagnose::{Nuisance, Options};
 use crate::doubts::frames::Displaced;
 use crate::doubts::{self, reach};
 use crate::effects::{Catalogue, Known};
-use crate::gap::{ascending, middle, percentile};
+use crate::infer::{ascending, middle, percentile};
 use crate::measurement::Measurements;
 use crate::report::campaign::{Mistaken, Wrong};
 use crate::simulate::is_stream;

@@ -20,7 +20,6 @@ mod chain;
 mod late;
 mod law;
 mod laws;
-mod measurements;
 mod noise;
 mod notation;
 mod observe;
@@ -36,9 +35,9 @@ pub mod motion;
 use stiffarm_kernels::generic::Arm;
 
 pub use crate::io::{number, quoted};
+pub use crate::measurement::csv;
 pub use campaign::{Campaign, Instrument, Scatter};
 pub use laws::{effects, has_law};
-pub use measurements::csv;
 pub use noise::Noise;
 pub use notation::TruthError;
 pub use observe::Frames;

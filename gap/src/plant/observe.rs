@@ -9,8 +9,8 @@ use super::noise::Noise;
 use super::reading::direction;
 use super::reality::{Jump, Reality};
 use super::transform::{carried, displaced, rotation, rotation_of, rotation_vector};
+use crate::instrument::{Lens, View};
 use crate::measurement::{Kind, Row};
-use crate::observe::{Lens, View};
 use crate::rng::{Rng, Stream};
 
 /// Frames that nobody knows.

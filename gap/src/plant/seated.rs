@@ -3,8 +3,8 @@
 use nalgebra::{DMatrix, Vector3};
 
 use super::{Plant, PlantError};
+use crate::instrument::Seen;
 use crate::measurement::Measurements;
-use crate::observe::Seen;
 
 /// Step of the joints by which a derivative is taken, rad or m.
 const STEP: f64 = 1e-6;

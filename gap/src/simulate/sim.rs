@@ -7,8 +7,8 @@ use super::actual::Actual;
 use super::rest::{beyond_first_order, follow_loads, rest};
 use super::state::State;
 use super::{rotation, translation};
+use crate::instrument::View;
 use crate::measurement::Kind;
-use crate::observe::View;
 
 /// Two angles that no instrument reads and no rotation vector exceeds, rad: what a camera would show of things far
 /// beside its picture is cut to it.

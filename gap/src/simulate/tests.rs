@@ -1,7 +1,7 @@
 //! Equilibrium against the textbook and against itself.
 
 use super::*;
-use crate::fixture::{bent, springy};
+use crate::fixture::{bent, row, springy, table};
 
 #[test]
 fn the_springs_balance_the_loads_in_the_loaded_geometry() {
@@ -104,4 +104,34 @@ fn a_marker_turns_with_the_tool() {
     let sim = simulate(&arm, &row, kind).unwrap();
     let want = sim.loaded.tool * nalgebra::Point3::new(0.0, 0.1, 0.2);
     assert_eq!(sim.reading().position, want.coords);
+}
+
+/// An arm that stands somewhere, seen from its base, is the arm that stands nowhere.
+#[test]
+fn an_arm_is_seen_from_its_base() {
+    let arm = springy();
+    let mut there = arm.clone();
+    there.base = Isometry3::new(Vector3::new(1.0, -2.0, 0.5), Vector3::new(0.3, -0.2, 1.4));
+    for kind in [
+        Kind::Pose { orientation: true },
+        Kind::Pose { orientation: false },
+        Kind::Displacement { components: [true; 6] },
+        Kind::Displacement { components: [true, true, true, false, false, false] },
+    ] {
+        let load = Vector6::new(50.0, -20.0, -90.0, 4.0, 5.0, -6.0);
+        let mask = Vector6::from_iterator(kind.components().map(f64::from));
+        let measured = |arm| {
+            let mut row = row(&[0.3, -0.8, 0.6], load);
+            row.measured = simulate(arm, &row, kind).unwrap().reading().vector();
+            row.measured.component_mul_assign(&mask);
+            table(vec![row], kind)
+        };
+        let seen = measured(&there).seen_from(&there.base).unwrap();
+        let off = seen.rows[0].measured - measured(&arm).rows[0].measured;
+        assert!(off.amax() < 1e-14, "{kind:?} {off}");
+    }
+    let one = Kind::Displacement { components: [false, true, false, false, false, false] };
+    let data = table(vec![row(&[0.0; 3], Vector6::zeros())], one);
+    assert!(data.seen_from(&there.base).is_none());
+    assert!(data.seen_from(&Isometry3::translation(1.0, 0.0, 0.0)).is_some());
 }

@@ -8,9 +8,9 @@ use stiffarm_gap::log::search::Search;
 use stiffarm_gap::log::search::case::{Case, Simple};
 use stiffarm_gap::log::search::dictionary::Dictionary;
 use stiffarm_gap::log::search::fit::Links;
-use stiffarm_gap::log::signal::Signals;
 use stiffarm_gap::log::{Signal, TorqueSide};
 use stiffarm_gap::rng::{Rng, Stream};
+use stiffarm_gap::signal::Signals;
 use stiffarm_kernels::generic::Arm;
 
 use super::plant::{arm, log, noise};

@@ -5,7 +5,7 @@ use core::f64::consts::{FRAC_PI_2, TAU};
 use std::collections::BTreeMap;
 
 use nalgebra::Vector3;
-use stiffarm_gap::log::read::Clock;
+use stiffarm_gap::log::Clock;
 use stiffarm_gap::log::report::{Finding, LogDiagnosis};
 use stiffarm_gap::log::{Log, LogOptions, Run, Signal, TorqueSide, diagnose};
 use stiffarm_gap::rng::{Rng, Stream};

@@ -4,9 +4,9 @@
 
 use stiffarm_codegen::robot::Robot;
 use stiffarm_gap::log::corrected::{Corrected, corrected};
-use stiffarm_gap::log::signal::Signals;
 use stiffarm_gap::log::{Log, LogDiagnosis, LogOptions, Model, Signal, diagnosed};
 use stiffarm_gap::rng::{Rng, Stream};
+use stiffarm_gap::signal::Signals;
 
 use super::plant::{self, Path, rigid};
 

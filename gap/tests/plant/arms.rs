@@ -2,8 +2,8 @@
 
 use nalgebra::{Isometry3, Vector3, Vector6};
 use stiffarm_gap::Diagnosis;
+use stiffarm_gap::instrument::Bench;
 use stiffarm_gap::measurement::{Kind, Layout, Measurements, Row};
-use stiffarm_gap::observe::Bench;
 use stiffarm_gap::plant::{Frames, Noise, Plant, Truth};
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::{Arm, Beam, Convention, Joint};

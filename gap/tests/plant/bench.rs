@@ -1,8 +1,8 @@
 //! Instruments that are no trackers: sockets and plates, alone and together, against the plant's own formulas.
 
 use nalgebra::{Isometry3, Point3, Unit, Vector3, Vector6};
+use stiffarm_gap::instrument::{Aim, Bench, Lens, Pair, Plane, Seen, View};
 use stiffarm_gap::measurement::{Kind, Row};
-use stiffarm_gap::observe::{Aim, Bench, Lens, Pair, Plane, Seen, View};
 use stiffarm_gap::plant::design::{Design, Shape};
 use stiffarm_gap::plant::{Frames, Noise, PlantError, csv};
 use stiffarm_gap::simulate::simulate;

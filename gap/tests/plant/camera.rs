@@ -3,8 +3,8 @@
 use std::f64::consts::FRAC_PI_2;
 
 use nalgebra::{Isometry3, Matrix4, Point3, Vector3};
+use stiffarm_gap::instrument::{Aim, Bench, Lens, Seen, View};
 use stiffarm_gap::measurement::{Kind, Row, Sight};
-use stiffarm_gap::observe::{Aim, Bench, Lens, Seen, View};
 use stiffarm_gap::plant::design::{Design, Shape};
 use stiffarm_gap::plant::{Frames, Noise, csv};
 use stiffarm_gap::{Diagnosis, Measurements, Options, diagnose};

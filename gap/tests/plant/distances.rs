@@ -2,8 +2,8 @@
 
 use nalgebra::{Isometry3, Vector3, Vector6};
 use stiffarm_gap::diagnose::Diagnosed;
+use stiffarm_gap::instrument::{Aim, Bench, Seen, View};
 use stiffarm_gap::measurement::{Kind, Row};
-use stiffarm_gap::observe::{Aim, Bench, Seen, View};
 use stiffarm_gap::plant::design::{Design, Shape};
 use stiffarm_gap::plant::{Noise, csv};
 use stiffarm_gap::simulate::simulate;

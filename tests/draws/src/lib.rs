@@ -1,6 +1,7 @@
 //! Random numbers for tests and benches: the same in every run, on every machine.
 #![forbid(unsafe_code)]
 
+pub mod golden;
 #[cfg(feature = "texts")]
 pub mod texts;
 

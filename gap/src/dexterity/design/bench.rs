@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector, Isometry3};
 use stiffarm_kernels::generic::Arm;
 
 use super::Station;
-use crate::observe::{Aim, Plane};
+use crate::instrument::{Aim, Plane};
 
 /// Steps that bring a posture there at most, and a step in joints, rad or m, as far as first order holds.
 const STEPS: usize = 60;

@@ -24,7 +24,7 @@ use nalgebra::Vector6;
 
 use super::DexterityError;
 use crate::effects::Known;
-use crate::observe;
+use crate::instrument;
 use crate::whole::Whole;
 use candidates::{Block, Pool};
 use exchange::{Aim, Choices};
@@ -60,7 +60,7 @@ pub struct Plan {
     /// What is read of a bench in place of a position; none without a bench. Its constants are co-estimated.
     pub bench: Vec<Station>,
     /// Plates below which no joint of the arm is.
-    pub plates: Vec<observe::Plane>,
+    pub plates: Vec<instrument::Plane>,
     /// Of the postures drawn.
     pub seed: u64,
 }
@@ -69,9 +69,9 @@ pub struct Plan {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Station {
     /// A point or a plane.
-    Thing(observe::Aim),
+    Thing(instrument::Aim),
     /// A board before a camera.
-    Board(observe::Look),
+    Board(instrument::Look),
 }
 
 /// One test.

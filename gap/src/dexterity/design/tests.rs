@@ -7,7 +7,7 @@ use super::{Design, Plan, Purpose, Station, Suspect};
 use crate::dexterity::{DexterityError, inverse_condition};
 use crate::effects::{Catalogue, Known};
 use crate::fixture::known;
-use crate::observe::View;
+use crate::instrument::View;
 use crate::whole::{Situation, Whole};
 
 fn kr240() -> Arm {
@@ -307,7 +307,7 @@ fn postures_at_a_bench_are_where_it_is() {
     let arm = crate::fixture::springy();
     let text = "[[point]]\nname = \"a\"\nat = [0.4, 0.1, 0.3]\n[[point]]\nname = \"b\"\nat = [0.1, 0.4, 0.2]\n\
                 [[plane]]\nname = \"floor\"\nnormal = [0, 0, 1]\noffset = \"-0.6 m\"";
-    let bench = crate::observe::Bench::read("b.toml", text).unwrap().places();
+    let bench = crate::instrument::Bench::read("b.toml", text).unwrap().places();
     let stations = bench.iter().cloned().map(Station::Thing).collect();
     let plates = bench.iter().filter_map(|aim| match aim.view {
         View::Plane(plane) => Some(plane),
@@ -344,7 +344,7 @@ fn postures_before_a_camera_show_the_board() {
          [[board]]\nname = \"held\"\nat = [0, 0, 0.05]\n{corners}"
     );
     for (text, constants) in [(hand, 12), (beside, 16)] {
-        let looks = crate::observe::Bench::read("b.toml", &text).unwrap().looks();
+        let looks = crate::instrument::Bench::read("b.toml", &text).unwrap().looks();
         let [look] = &looks[..] else { panic!("{looks:?}") };
         let station = Station::Board(look.clone());
         assert_eq!(station.constants(), constants);

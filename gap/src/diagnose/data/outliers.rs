@@ -8,7 +8,7 @@ use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use super::noise::{Level, Noise, Source};
 use super::problem::Problem;
-use crate::gap::{ascending, percentile};
+use crate::infer::{ascending, percentile};
 use crate::measurement::{Measurements, ONE_IN, Row};
 
 /// Of a campaign of normal errors so much is left out: less than one row in a hundred of them.

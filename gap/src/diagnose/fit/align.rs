@@ -8,8 +8,8 @@ use super::refit::refit;
 use crate::diagnose::data::{Problem, Thing};
 use crate::diagnose::options::{DiagnoseError, Nuisance};
 use crate::infer::Basis;
+use crate::instrument::{View, nearest_rotation, pose};
 use crate::measurement::{Kind, Row};
-use crate::observe::{View, nearest_rotation, pose};
 use crate::parallel;
 use crate::simulate::Reading;
 

@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector, Vector3};
 
 use super::model::Model;
 use crate::diagnose::data::{Problem, Thing};
-use crate::observe::{Pair, View};
+use crate::instrument::{Pair, View};
 use crate::spring::Spring;
 
 /// A measurement of parameters alone.

@@ -14,7 +14,7 @@ use crate::diagnose::options::{DiagnoseError, Nuisance};
 use crate::displacement::Displacement;
 use crate::effects::{Effect, JOINT_SPRING, Place, Scene, Spot};
 use crate::gap::row_gap;
-use crate::observe::View;
+use crate::instrument::View;
 use crate::parallel;
 use crate::simulate::{Actual, Moment, Sim, Site, State};
 

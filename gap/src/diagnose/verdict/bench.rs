@@ -5,7 +5,7 @@ use crate::diagnose::data::Thing;
 use crate::diagnose::fit::Model;
 use crate::diagnose::report::{BenchReport, PairReport};
 use crate::diagnose::search::{Explained, Search};
-use crate::observe::{MOST_CONSTANTS, View};
+use crate::instrument::{MOST_CONSTANTS, View};
 use crate::report::Parameter;
 
 impl Search<'_, '_> {

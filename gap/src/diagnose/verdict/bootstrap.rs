@@ -1,7 +1,7 @@
 //! Intervals by resampling poses: a pose is drawn with all its rows, and what is compared is
 //! compared on the same poses.
 
-use crate::gap::percentile;
+use crate::infer::percentile;
 use crate::rng::{Rng, Stream};
 
 /// Resamplings of each interval.

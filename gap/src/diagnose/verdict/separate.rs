@@ -6,8 +6,8 @@ use nalgebra::{DVector, Matrix6xX, Vector6};
 use super::outcome::Group;
 use crate::diagnose::normal_equations::Candidate;
 use crate::diagnose::search::{Explained, Search};
+use crate::instrument::View;
 use crate::measurement::Row;
-use crate::observe::View;
 use crate::simulate::Sim;
 
 /// A load to try where the data has none, N.

@@ -13,7 +13,7 @@ use crate::diagnose::report::{Cover, NuisanceReport};
 use crate::diagnose::search::{Explained, Search};
 use crate::gap::rms;
 use crate::infer::interval;
-use crate::observe::View;
+use crate::instrument::View;
 use crate::report::{Finding, HeldOutGap, Parameter};
 use crate::shrink::Shrink;
 

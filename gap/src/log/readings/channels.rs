@@ -6,7 +6,7 @@ use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
 use super::Misread;
-use crate::log::read::{Log, Run, Signal};
+use crate::log::{Log, Run, Signal};
 
 /// Steps between samples that no recorder of joints has, s: slower, and faster. They stand apart from those of 50 to
 /// 1000 Hz by more than ten each, and a unit is a thousand.

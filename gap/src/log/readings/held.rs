@@ -3,8 +3,8 @@
 use super::Misread;
 use super::plain::Plain;
 use crate::effects::{Place, Spot};
+use crate::log::TorqueSide;
 use crate::log::effects::PAYLOAD;
-use crate::log::read::TorqueSide;
 use crate::log::search::case::{Case, Wanted};
 use crate::log::search::fit::Links;
 

@@ -9,11 +9,11 @@ use std::borrow::Cow;
 use super::Misread;
 use super::plain::{ENOUGH, Plain};
 use crate::effects::{Facts, InMotion, Law, Place, Spot};
-use crate::log::read::Signal;
+use crate::log::Signal;
 use crate::log::scene::{Column, Scene};
 use crate::log::search::case::{Case, Wanted};
 use crate::log::search::fit::Links;
-use crate::log::signal::Signals;
+use crate::signal::Signals;
 
 /// What a simple model leaves of a joint's torque, as a part of its spread, where nothing is asked: real arms leave
 /// half of it at most (a Panda up to 60 Hz, without anything but Coulomb friction).

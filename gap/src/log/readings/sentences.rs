@@ -3,7 +3,7 @@
 use stiffarm_kernels::generic::{Arm, Drive};
 
 use super::Misread;
-use crate::log::read::{Log, Signal, TorqueSide};
+use crate::log::{Log, Signal, TorqueSide};
 
 impl Misread {
     /// What is wrong, what is done, and how to mend it.

@@ -7,7 +7,7 @@
 
 use super::segments::Segment;
 use crate::infer::constants::FOLDS;
-use crate::log::signal::Signals;
+use crate::signal::Signals;
 
 /// Correlation times of a block.
 const LENGTH: f64 = 5.0;

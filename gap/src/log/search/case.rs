@@ -6,13 +6,13 @@ use super::delay;
 use super::dictionary::{Dictionary, Mixed};
 use super::fit::{Links, Term};
 use super::ripples;
+use crate::log::TorqueSide;
 use crate::log::effects::{LogEffect, Spot};
 use crate::log::model::Acting;
-use crate::log::read::TorqueSide;
 use crate::log::rigid::Base;
 use crate::log::rigid::works::Works;
 use crate::log::scene::{Column, Domain, Loads, Scene};
-use crate::log::signal::Signals;
+use crate::signal::Signals;
 
 /// What changes by less than this part is found.
 pub const FOUND: f64 = 1e-3;

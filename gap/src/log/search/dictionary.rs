@@ -18,8 +18,8 @@ use super::segments::{Segment, segments};
 use crate::infer::correlation_time;
 use crate::log::effects::{LATE, LogEffect, Spot};
 use crate::log::scene::Domain;
-use crate::log::signal::Signals;
 use crate::parallel;
+use crate::signal::Signals;
 
 /// Rows that are kept, about.
 const SAMPLE: usize = 20_000;

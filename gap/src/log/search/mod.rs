@@ -35,9 +35,9 @@ use normal_equations::Sums;
 
 use super::effects::{Catalogue, LogEffect};
 use super::scene::Loads;
-use super::signal::Signals;
 use crate::infer::constants::{LOOSE, SIGNIFICANT};
 use crate::infer::students_t;
+use crate::signal::Signals;
 
 /// So many candidates are asked again by blocks of their own.
 const AGAIN: usize = 4;

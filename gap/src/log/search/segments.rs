@@ -2,7 +2,7 @@
 
 use core::ops::Range;
 
-use crate::log::signal::Signals;
+use crate::signal::Signals;
 
 /// Grains of a log, about: a block of time is one of them, or a few.
 const COUNT: usize = 64;

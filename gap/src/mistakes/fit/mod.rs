@@ -19,7 +19,8 @@ use stiffarm_kernels::generic::{self, Arm, Convention};
 use super::kind::Mistake;
 use super::rows::Rows;
 use crate::doubts::reach;
-use crate::gap::{ascending, rms};
+use crate::gap::rms;
+use crate::infer::ascending;
 use open::Open;
 
 /// Prior scale of a joint's zero, rad (m): marks and masters are good to some mrad.

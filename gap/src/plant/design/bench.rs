@@ -6,8 +6,8 @@ use stiffarm_kernels::generic::Arm;
 use super::super::reality::Reality;
 use super::super::transform::{carried, origin};
 use super::{Design, poses, rounded};
+use crate::instrument::{Aim, Plane, Seen, View};
 use crate::measurement::{Kind, Measurements, Row};
-use crate::observe::{Aim, Plane, Seen, View};
 use crate::rng::{Rng, Stream};
 
 /// Sockets or plates of a bench: fewer tell some of an arm's lengths from each other badly.

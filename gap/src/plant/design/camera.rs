@@ -6,9 +6,9 @@ use stiffarm_kernels::generic::Arm;
 use super::super::reality::Reality;
 use super::super::transform::{origin, rotation};
 use super::{Design, Shape, poses, rounded};
+use crate::instrument::{Aim, Bench, Look, Seen};
 use crate::io::Fault;
 use crate::measurement::{Kind, Measurements, Row, Sight};
-use crate::observe::{Aim, Bench, Look, Seen};
 
 /// Postures by which the reach of an arm is told.
 const REACH: usize = 200;

@@ -17,8 +17,8 @@ use stiffarm_kernels::generic::Arm;
 pub use bench::placed;
 pub use camera::{beside, in_view};
 
+use crate::instrument::{Aim, Seen, View};
 use crate::measurement::{Kind, Measurements, Row};
-use crate::observe::{Aim, Seen, View};
 
 /// What the experiment is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

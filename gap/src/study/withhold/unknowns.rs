@@ -7,8 +7,8 @@ use super::campaign::Bench;
 use super::exact;
 use crate::diagnose::Nuisance;
 use crate::infer::Basis;
+use crate::instrument::{Aim, Pair, Seen};
 use crate::measurement::{Measurements, Row};
-use crate::observe::{Aim, Pair, Seen};
 use crate::plant::{PlantError, Truth};
 
 /// By how much unknowns are moved to see what they do, m, rad, or parts of a focal length.
