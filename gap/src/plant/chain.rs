@@ -49,7 +49,9 @@ pub(super) struct Chain {
 /// The chain at some displacements.
 pub(super) struct Shape {
     /// The frame in which each site displaces, in the order of the parts.
-    pub(super) frames: Vec<Matrix4<f64>>,
+    pub(super) sites: Vec<Matrix4<f64>>,
+    /// The frame of the point of each weight, in the order of the parts.
+    weights: Vec<Matrix4<f64>>,
     /// The tool frame.
     pub(super) tool: Matrix4<f64>,
 }
@@ -81,8 +83,12 @@ impl Site {
 }
 
 impl Chain {
+    /// Transforms between which nothing yields or weighs are one.
     pub(super) fn fixed(&mut self, transform: Matrix4<f64>) {
-        self.parts.push(Part::Fixed(transform));
+        match self.parts.last_mut() {
+            Some(Part::Fixed(before)) => *before *= transform,
+            _ => self.parts.push(Part::Fixed(transform)),
+        }
     }
 
     pub(super) fn weight(&mut self, point: Vector3<f64>, force: Vector3<f64>) {
@@ -107,19 +113,19 @@ impl Chain {
 
     /// Where everything is at some displacements.
     pub(super) fn shape(&self, unknowns: &[f64]) -> Shape {
-        let mut frames = Vec::new();
+        let (mut sites, mut weights) = (Vec::new(), Vec::new());
         let mut frame = Matrix4::identity();
         for part in &self.parts {
             match part {
                 Part::Fixed(transform) => frame *= transform,
                 Part::Site(site) => {
-                    frames.push(frame);
+                    sites.push(frame);
                     frame *= displaced(&site.displacement(unknowns));
                 }
-                Part::Weight { .. } => {}
+                Part::Weight { .. } => weights.push(frame),
             }
         }
-        Shape { frames, tool: frame }
+        Shape { sites, weights, tool: frame }
     }
 
     /// The generalised force of every unknown at some displacements.
@@ -134,17 +140,18 @@ impl Chain {
         let mut block = virial.fixed_view_mut::<3, 3>(0, 0);
         block += 0.5 * cross(&self.couple);
         let mut forces = vec![0.0; self.unknowns];
-        let mut frame = shape.tool;
-        let mut frames = shape.frames.iter().rev();
+        let (mut sites, mut weights) = (shape.sites.iter().rev(), shape.weights.iter().rev());
         for part in self.parts.iter().rev() {
             match part {
-                Part::Fixed(transform) => frame *= inverse(transform),
-                Part::Weight { point, force } => virial += dyad(force, &carried(&frame, point)),
+                Part::Fixed(_) => {}
+                Part::Weight { point, force } => {
+                    let Some(frame) = weights.next() else { break };
+                    virial += dyad(force, &carried(frame, point));
+                }
                 Part::Site(site) => {
-                    let Some(before) = frames.next() else { break };
-                    frame = *before;
+                    let Some(frame) = sites.next() else { break };
                     // The virial in the site's axes.
-                    let own = rotation(before).tr_mul(&virial) * inverse(before).transpose();
+                    let own = rotation(frame).tr_mul(&virial) * inverse(frame).transpose();
                     let displacement = site.displacement(unknowns);
                     for (k, component) in site.components.iter().enumerate() {
                         let motion = site.motion(&displacement, *component);
@@ -161,7 +168,7 @@ impl Chain {
         let shape = self.shape(unknowns);
         let forces = self.forces_of(&shape, unknowns);
         let mut wanted = Vec::with_capacity(self.unknowns);
-        for (site, frame) in self.sites().zip(&shape.frames) {
+        for (site, frame) in self.sites().zip(&shape.sites) {
             let own = &forces[site.first..site.first + site.components.len()];
             wanted.extend(site.law.displacement(own, &rotation(frame)));
         }
@@ -175,7 +182,7 @@ impl Chain {
         let shape = self.shape(&rest);
         let tool = transform::origin(&shape.tool);
         let mut twist = Vector6::zeros();
-        for (site, frame) in self.sites().zip(&shape.frames) {
+        for (site, frame) in self.sites().zip(&shape.sites) {
             for (k, component) in site.components.iter().enumerate() {
                 let motion = frame * site.motion(&Vector6::zeros(), *component) * inverse(frame);
                 let moved = (motion * tool.push(1.0)) * unknowns[site.first + k];

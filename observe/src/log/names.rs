@@ -173,7 +173,13 @@ impl Names {
     fn joint(&self, name: &str) -> Option<usize> {
         // LeRobot says what of a motor: `elbow_flex.pos`.
         let name = name.strip_suffix(".pos").unwrap_or(name);
-        self.joints.iter().position(|j| j == name)
+        let own = self.joints.iter().position(|j| j == name);
+        let is_unnamed = |(k, j): (usize, &String)| *j == format!("joint {}", k + 1);
+        own.or_else(|| {
+            let drivers =
+                self.joints.iter().enumerate().all(is_unnamed).then(|| driver_joint(name));
+            drivers.flatten().filter(|joint| *joint < self.joints.len())
+        })
     }
 
     fn foreign(&self, format: &Format, header: &str) -> Option<Role> {
@@ -196,6 +202,26 @@ impl Names {
             index.parse().ok().or_else(|| self.joint(index)).map(role)
         })
     }
+}
+
+/// Universal Robots' names in ROS, before `_joint`.
+const UNIVERSAL_ROBOTS: [&str; 6] =
+    ["shoulder_pan", "shoulder_lift", "elbow", "wrist_1", "wrist_2", "wrist_3"];
+
+/// The joint that a maker's driver for ROS calls so, whatever the arm is called before it: `panda_joint1`, `joint_a2`,
+/// `lbr_A3`, `ur10e_elbow_joint`. A gripper's fingers are joints, too, and none of the arm's.
+fn driver_joint(name: &str) -> Option<usize> {
+    let name = name.to_ascii_lowercase();
+    if ["finger", "gripper", "hand"].iter().any(|tool| name.contains(tool)) {
+        return None;
+    }
+    if let Some(stem) = name.strip_suffix("_joint") {
+        return UNIVERSAL_ROBOTS.iter().position(|joint| stem.ends_with(joint));
+    }
+    let stem = name.trim_end_matches(|c: char| c.is_ascii_digit());
+    let number: usize = name[stem.len()..].parse().ok()?;
+    let word = stem.trim_end_matches('_').rsplit(['_', ' ', '/']).next()?;
+    ["joint", "axis", "a", "j"].contains(&word).then(|| number.checked_sub(1)).flatten()
 }
 
 #[cfg(test)]
@@ -239,5 +265,30 @@ mod tests {
         assert_eq!(names().role("q_cmd_elbow[rad]"), Some(Role::Joint(Signal::QCmd, 1)));
         assert_eq!(names().role("tau.shoulder_pan"), Some(Role::Joint(Signal::Torque, 0)));
         assert_eq!(names().role("q_wrist"), None);
+    }
+    /// The joints of a built-in arm have no names: those of its maker's driver are known.
+    #[test]
+    fn drivers_names_are_known_where_a_file_has_none() {
+        let arm = |dof: usize| {
+            let own = (1..=dof).map(|k| format!("joint {k}")).collect();
+            Names::own(own).of_format("ros").unwrap()
+        };
+        for (header, joint) in [
+            ("/joint_states/panda_joint7/position", Some(6)),
+            ("/joint_states/fr3_joint1/position", Some(0)),
+            ("/joint_states/panda_finger_joint1/position", None),
+            ("/joint_states/joint_a2/position", Some(1)),
+            ("/joint_states/lbr_A3/position", Some(2)),
+            ("/joint_states/joint_8/position", None),
+            ("/joint_states/joint_0/position", None),
+            ("/joint_states/wheel1/position", None),
+            ("/joint_states/ur10e_wrist_2_joint/position", Some(4)),
+            ("/joint_states/elbow_joint/position", Some(2)),
+        ] {
+            let role = joint.map(|joint| Role::Joint(Signal::Q, joint));
+            assert_eq!(arm(7).role(header), role, "{header}");
+        }
+        // Of a file that names its joints only its own.
+        assert_eq!(names().of_format("ros").unwrap().role("/joint_states/joint_1/position"), None);
     }
 }
