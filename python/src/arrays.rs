@@ -2,8 +2,8 @@
 
 use numpy::ndarray::{ArrayViewD, IxDyn, ShapeBuilder};
 use numpy::{
-    PyArrayDescrMethods, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArray,
-    PyUntypedArrayMethods, ToPyArray,
+    PyArrayDescrMethods, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyReadwriteArrayDyn,
+    PyUntypedArray, PyUntypedArrayMethods, ToPyArray,
 };
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::intern;
@@ -118,7 +118,8 @@ impl Shape {
         single: bool,
         fill: impl FnOnce(&mut [f64]) -> PyResult<Option<PyErr>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let rounded = out.and_then(|out| out.cast::<PyArrayDyn<f32>>().ok());
+        let rounded = out.filter(|out| !out.is_instance_of::<PyArrayDyn<f64>>());
+        let rounded = rounded.and_then(|out| out.cast::<PyArrayDyn<f32>>().ok());
         if let Some(array) = rounded {
             fits(array.shape(), &self.seen(place.0))?;
         }
@@ -151,8 +152,8 @@ impl Shape {
         out: Option<&Bound<'py, PyAny>>,
         fill: impl FnOnce(&mut [f64]) -> PyResult<Option<PyErr>>,
     ) -> PyResult<(Numbers<'py>, Option<PyErr>)> {
-        if lead.is_empty() && out.is_none() && !(self.swapped && self.written.len() > 2) {
-            return self.one(py, size, fill);
+        if lead.is_empty() && !(self.swapped && self.written.len() > 2) {
+            return self.one(py, size, out, fill);
         }
         let written = [lead, &self.written].concat();
         let mut axes: Vec<usize> = (0..written.len()).collect();
@@ -167,9 +168,7 @@ impl Shape {
             Some(out) => ours(out, &self.seen(lead))?,
         };
         let as_written = if self.swapped { array.permute(Some(axes))? } else { array.clone() };
-        let mut target = as_written.try_readwrite().map_err(|_| {
-            PyValueError::new_err("out: found an array that cannot be written to, or is being read")
-        })?;
+        let mut target = writable(&as_written)?;
         // A slice lies in Fortran's order, too.
         let raised = match target.as_slice_mut() {
             Ok(slice) if !self.homogeneous && as_written.is_c_contiguous() => fill(slice)?,
@@ -193,11 +192,12 @@ impl Shape {
         Ok((array, raised))
     }
 
-    /// A new array of one pose: one allocation by NumPy, where a call costs more than what it computes.
+    /// Of one pose, where a call costs more than what it computes: NumPy makes no array but the result.
     fn one<'py>(
         &self,
         py: Python<'py>,
         size: usize,
+        out: Option<&Bound<'py, PyAny>>,
         fill: impl FnOnce(&mut [f64]) -> PyResult<Option<PyErr>>,
     ) -> PyResult<(Numbers<'py>, Option<PyErr>)> {
         let mut block = vec![0.0; size];
@@ -213,7 +213,14 @@ impl Shape {
             _ => ArrayViewD::from_shape(IxDyn(&self.written), &block),
         };
         let view = view.map_err(|error| PyValueError::new_err(error.to_string()))?;
-        Ok((view.to_pyarray(py), raised))
+        let Some(out) = out else {
+            return Ok((view.to_pyarray(py), raised));
+        };
+        let array = ours(out, view.shape())?;
+        if raised.is_none() {
+            writable(&array)?.as_array_mut().assign(&view);
+        }
+        Ok((array, raised))
     }
 }
 
@@ -224,6 +231,12 @@ fn ours<'py>(out: &Bound<'py, PyAny>, expected: &[usize]) -> PyResult<Numbers<'p
         .map_err(|_| PyTypeError::new_err("out: expected an array of numpy.float64 or float32"))?;
     fits(array.shape(), expected)?;
     Ok(array.clone())
+}
+
+fn writable<'py>(array: &Numbers<'py>) -> PyResult<PyReadwriteArrayDyn<'py, f64>> {
+    array.try_readwrite().map_err(|_| {
+        PyValueError::new_err("out: found an array that cannot be written to, or is being read")
+    })
 }
 
 fn fits(found: &[usize], expected: &[usize]) -> PyResult<()> {
