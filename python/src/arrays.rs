@@ -160,7 +160,7 @@ impl Shape {
         fill: impl FnOnce(&mut [f64]) -> PyResult<Option<PyErr>>,
     ) -> PyResult<(Numbers<'py>, Option<PyErr>)> {
         if lead.is_empty() && !(self.swapped && self.written.ndim() > 2) {
-            return self.one(py, size, out, fill);
+            return Ok((self.one(py, size, out, fill)?, None));
         }
         let written = [lead, self.written.slice()].concat();
         let mut axes: Vec<usize> = (0..written.len()).collect();
@@ -206,7 +206,7 @@ impl Shape {
         size: usize,
         out: Option<&Bound<'py, PyAny>>,
         fill: impl FnOnce(&mut [f64]) -> PyResult<Option<PyErr>>,
-    ) -> PyResult<(Numbers<'py>, Option<PyErr>)> {
+    ) -> PyResult<Numbers<'py>> {
         let (mut small, mut large) = ([0.0; SMALL], Vec::new());
         let block = match small.get_mut(..size) {
             Some(block) => block,
@@ -215,43 +215,42 @@ impl Shape {
                 &mut large
             }
         };
-        let raised = fill(block)?;
+        if let Some(raised) = fill(block)? {
+            return Err(raised);
+        }
         let matrices = if self.homogeneous { homogeneous(block) } else { Vec::new() };
         let block = if self.homogeneous { &matrices } else { &*block };
-        let out = out.map(|out| (out, raised.is_none()));
-        let array = match *self.written.slice() {
+        match *self.written.slice() {
             [rows] => placed(py, ArrayView::from_shape(rows, block), out),
             // A matrix that is written column by column lies in Fortran's order.
-            [columns, rows] if self.swapped => {
-                placed(py, ArrayView::from_shape((rows, columns).f(), block), out)
+            [first, second] => {
+                let seen = if self.swapped { (second, first) } else { (first, second) };
+                placed(py, ArrayView::from_shape(seen.set_f(self.swapped), block), out)
             }
             _ => placed(py, ArrayView::from_shape(self.written.clone(), block), out),
-        };
-        Ok((array?, raised))
+        }
     }
 }
 
-/// A new array, or that of a user, in which numbers are put if they are good.
+/// A new array of these numbers, or that of a user, in which they are put.
 fn placed<'py, D: Dimension>(
     py: Python<'py>,
     view: Result<ArrayView<'_, f64, D>, ShapeError>,
-    out: Option<(&Bound<'py, PyAny>, bool)>,
+    out: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Numbers<'py>> {
     let view = view.map_err(|error| PyValueError::new_err(error.to_string()))?;
-    let Some((out, good)) = out else {
+    let Some(out) = out else {
         return Ok(view.to_pyarray(py).to_dyn().clone());
     };
     let array = ours(out, view.shape())?;
-    if good {
-        let mut target = writable(&array)?;
-        let alike = array.is_c_contiguous() == view.is_standard_layout();
-        if let (true, Some(numbers), Ok(slice)) =
-            (alike, view.as_slice_memory_order(), target.as_slice_mut())
-        {
-            slice.copy_from_slice(numbers);
-        } else {
-            target.as_array_mut().assign(&view);
-        }
+    let mut target = writable(&array)?;
+    let alike = array.is_c_contiguous() == view.is_standard_layout();
+    if let (true, Some(numbers), Ok(slice)) =
+        (alike, view.as_slice_memory_order(), target.as_slice_mut())
+    {
+        slice.copy_from_slice(numbers);
+    } else {
+        target.as_array_mut().assign(&view);
     }
     Ok(array)
 }

@@ -61,9 +61,10 @@ def imports():
 def calls():
     arm = stiffarm.Arm.load("kuka_kr240")
     q, out = numpy.full(6, 0.3), numpy.empty((6, 6)).T
-    print("one Jacobian, µs of the processor:")
+    print("one call, µs of the processor: the Jacobian, and the pose")
     print(f"  stiffarm           {1e6 * median(lambda: arm.jacobian(q), 2000):.2f}")
     print(f"  stiffarm, out=     {1e6 * median(lambda: arm.jacobian(q, out=out), 2000):.2f}")
+    print(f"  stiffarm, pose     {1e6 * median(lambda: arm.pose(q), 2000):.2f}")
     urdf = stiffarm.generate(arm, "urdf")["kuka_kr240.urdf"]
     try:
         import pinocchio
@@ -73,7 +74,14 @@ def calls():
         model = pinocchio.buildModelFromXML(urdf)
         data, tip = model.createData(), model.nframes - 1
         mixed = pinocchio.LOCAL_WORLD_ALIGNED
+
+        def pose():
+            pinocchio.forwardKinematics(model, data, q)
+            return pinocchio.updateFramePlacement(model, data, tip)
+
+        assert numpy.abs(pose().homogeneous - arm.pose(q)).max() < 1e-9
         print(f"  Pinocchio          {1e6 * median(lambda: pinocchio.computeFrameJacobian(model, data, q, tip, mixed), 2000):.2f}")
+        print(f"  Pinocchio, pose    {1e6 * median(pose, 2000):.2f}")
     try:
         import casadi
     except ImportError:
