@@ -54,7 +54,7 @@ def test_one_pose_goes_where_it_is_asked_to():
         found = call(*given)
         assert found.shape == want.shape and (found == want).all()
         plain, wide = numpy.empty(want.shape), numpy.empty((2 * len(want), *want.shape[1:]))
-        for out in (plain, numpy.empty(want.shape[::-1]).T, wide[::2], plain.astype("f4")):
+        for out in (plain, numpy.empty(want.shape[::-1]).T, wide[::2], numpy.empty_like(plain, "f4")):
             assert call(*given, out=out) is out and (out == want.astype(out.dtype)).all()
         plain.flags.writeable = False
         with pytest.raises(ValueError, match="cannot be written"):

@@ -51,7 +51,7 @@ impl Arm {
         warming: Option<f64>,
         at: Option<String>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let still = PyArray1::<f64>::zeros(py, self.dof(), false);
+        let still = PyArray1::from_slice(py, &vec![0.0; self.dof()]);
         let beside = Beside { out, sides, warming, at };
         self.tell(py, Output::Bias, &[q, still.as_any()], None, beside)
     }
