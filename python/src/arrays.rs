@@ -1,14 +1,17 @@
 //! NumPy's arrays in and out: what is read without a copy where it lies well, and where results go.
 
-use numpy::ndarray::{ArrayViewD, IxDyn, ShapeBuilder};
+use numpy::ndarray::{ArrayView, ArrayViewD, Dimension, IxDyn, ShapeBuilder, ShapeError};
 use numpy::{
-    PyArrayDescrMethods, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArray,
-    PyUntypedArrayMethods, ToPyArray,
+    PyArrayDescrMethods, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyReadwriteArrayDyn,
+    PyUntypedArray, PyUntypedArrayMethods, ToPyArray,
 };
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::intern;
 use pyo3::prelude::*;
 use stiffarm_kernels::{Form, Output, Side};
+
+/// Numbers of a result for which no memory is asked: 8 by 8.
+const SMALL: usize = 64;
 
 /// Doubles in a row, whatever array-like they come from.
 pub type Numbers<'py> = Bound<'py, PyArrayDyn<f64>>;
@@ -78,7 +81,7 @@ pub fn shape(dimensions: &[usize]) -> String {
 /// How an output's block becomes an array: dimensions of one pose as kernels write them, column after column, and
 /// whether the last two change places for Python, where rows come first.
 pub struct Shape {
-    written: Vec<usize>,
+    written: IxDyn,
     swapped: bool,
     /// Blocks of twelve numbers become homogeneous matrices of sixteen.
     homogeneous: bool,
@@ -88,17 +91,21 @@ impl Shape {
     /// Of an output of an arm of `n` joints.
     pub fn of(output: Output, n: usize) -> Shape {
         let (rows, columns) = output.shape(n);
-        let plain = |written: Vec<usize>| Shape { written, swapped: false, homogeneous: false };
+        let plain = |written: &[usize]| Shape {
+            written: IxDyn(written),
+            swapped: false,
+            homogeneous: false,
+        };
         match output.form() {
-            Form::Vector if rows == 1 => plain(vec![]),
-            Form::Vector => plain(vec![rows]),
-            Form::Matrix => Shape { swapped: true, ..plain(vec![columns, rows]) },
+            Form::Vector if rows == 1 => plain(&[]),
+            Form::Vector => plain(&[rows]),
+            Form::Matrix => Shape { swapped: true, ..plain(&[columns, rows]) },
             Form::Stack => {
                 let each = output.columns().each().count(n);
-                Shape { swapped: true, ..plain(vec![columns / each, each, rows]) }
+                Shape { swapped: true, ..plain(&[columns / each, each, rows]) }
             }
-            Form::Pose => Shape { homogeneous: true, ..plain(vec![4, 4]) },
-            Form::Poses => Shape { homogeneous: true, ..plain(vec![columns / 4, 4, 4]) },
+            Form::Pose => Shape { homogeneous: true, ..plain(&[4, 4]) },
+            Form::Poses => Shape { homogeneous: true, ..plain(&[columns / 4, 4, 4]) },
         }
     }
 
@@ -118,7 +125,8 @@ impl Shape {
         single: bool,
         fill: impl FnOnce(&mut [f64]) -> PyResult<Option<PyErr>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let rounded = out.and_then(|out| out.cast::<PyArrayDyn<f32>>().ok());
+        let rounded = out.filter(|out| !out.is_instance_of::<PyArrayDyn<f64>>());
+        let rounded = rounded.and_then(|out| out.cast::<PyArrayDyn<f32>>().ok());
         if let Some(array) = rounded {
             fits(array.shape(), &self.seen(place.0))?;
         }
@@ -137,7 +145,7 @@ impl Shape {
 
     /// The dimensions that a user sees.
     fn seen(&self, lead: &[usize]) -> Vec<usize> {
-        let mut seen = [lead, &self.written].concat();
+        let mut seen = [lead, self.written.slice()].concat();
         if let (true, [.., a, b]) = (self.swapped, &mut seen[..]) {
             std::mem::swap(a, b);
         }
@@ -151,10 +159,10 @@ impl Shape {
         out: Option<&Bound<'py, PyAny>>,
         fill: impl FnOnce(&mut [f64]) -> PyResult<Option<PyErr>>,
     ) -> PyResult<(Numbers<'py>, Option<PyErr>)> {
-        if lead.is_empty() && out.is_none() && !(self.swapped && self.written.len() > 2) {
-            return self.one(py, size, fill);
+        if lead.is_empty() && !(self.swapped && self.written.ndim() > 2) {
+            return Ok((self.one(py, size, out, fill)?, None));
         }
-        let written = [lead, &self.written].concat();
+        let written = [lead, self.written.slice()].concat();
         let mut axes: Vec<usize> = (0..written.len()).collect();
         if self.swapped {
             axes.swap(written.len() - 1, written.len() - 2);
@@ -167,9 +175,7 @@ impl Shape {
             Some(out) => ours(out, &self.seen(lead))?,
         };
         let as_written = if self.swapped { array.permute(Some(axes))? } else { array.clone() };
-        let mut target = as_written.try_readwrite().map_err(|_| {
-            PyValueError::new_err("out: found an array that cannot be written to, or is being read")
-        })?;
+        let mut target = writable(&as_written)?;
         // A slice lies in Fortran's order, too.
         let raised = match target.as_slice_mut() {
             Ok(slice) if !self.homogeneous && as_written.is_c_contiguous() => fill(slice)?,
@@ -193,28 +199,60 @@ impl Shape {
         Ok((array, raised))
     }
 
-    /// A new array of one pose: one allocation by NumPy, where a call costs more than what it computes.
+    /// Of one pose, where a call costs more than what it computes: nothing is made but the result.
     fn one<'py>(
         &self,
         py: Python<'py>,
         size: usize,
+        out: Option<&Bound<'py, PyAny>>,
         fill: impl FnOnce(&mut [f64]) -> PyResult<Option<PyErr>>,
-    ) -> PyResult<(Numbers<'py>, Option<PyErr>)> {
-        let mut block = vec![0.0; size];
-        let raised = fill(&mut block)?;
-        if self.homogeneous {
-            block = homogeneous(&block);
-        }
-        // A matrix that is written column by column lies in Fortran's order.
-        let view = match self.written[..] {
-            [columns, rows] if self.swapped => {
-                ArrayViewD::from_shape(IxDyn(&[rows, columns]).f(), &block)
+    ) -> PyResult<Numbers<'py>> {
+        let (mut small, mut large) = ([0.0; SMALL], Vec::new());
+        let block = match small.get_mut(..size) {
+            Some(block) => block,
+            None => {
+                large.resize(size, 0.0);
+                &mut large
             }
-            _ => ArrayViewD::from_shape(IxDyn(&self.written), &block),
         };
-        let view = view.map_err(|error| PyValueError::new_err(error.to_string()))?;
-        Ok((view.to_pyarray(py), raised))
+        if let Some(raised) = fill(block)? {
+            return Err(raised);
+        }
+        let matrices = if self.homogeneous { homogeneous(block) } else { Vec::new() };
+        let block = if self.homogeneous { &matrices } else { &*block };
+        match *self.written.slice() {
+            [rows] => placed(py, ArrayView::from_shape(rows, block), out),
+            // A matrix that is written column by column lies in Fortran's order.
+            [first, second] => {
+                let seen = if self.swapped { (second, first) } else { (first, second) };
+                placed(py, ArrayView::from_shape(seen.set_f(self.swapped), block), out)
+            }
+            _ => placed(py, ArrayView::from_shape(self.written.clone(), block), out),
+        }
     }
+}
+
+/// A new array of these numbers, or that of a user, in which they are put.
+fn placed<'py, D: Dimension>(
+    py: Python<'py>,
+    view: Result<ArrayView<'_, f64, D>, ShapeError>,
+    out: Option<&Bound<'py, PyAny>>,
+) -> PyResult<Numbers<'py>> {
+    let view = view.map_err(|error| PyValueError::new_err(error.to_string()))?;
+    let Some(out) = out else {
+        return Ok(view.to_pyarray(py).to_dyn().clone());
+    };
+    let array = ours(out, view.shape())?;
+    let mut target = writable(&array)?;
+    let alike = array.is_c_contiguous() == view.is_standard_layout();
+    if let (true, Some(numbers), Ok(slice)) =
+        (alike, view.as_slice_memory_order(), target.as_slice_mut())
+    {
+        slice.copy_from_slice(numbers);
+    } else {
+        target.as_array_mut().assign(&view);
+    }
+    Ok(array)
 }
 
 /// The array that a user wants the result in.
@@ -224,6 +262,12 @@ fn ours<'py>(out: &Bound<'py, PyAny>, expected: &[usize]) -> PyResult<Numbers<'p
         .map_err(|_| PyTypeError::new_err("out: expected an array of numpy.float64 or float32"))?;
     fits(array.shape(), expected)?;
     Ok(array.clone())
+}
+
+fn writable<'py>(array: &Numbers<'py>) -> PyResult<PyReadwriteArrayDyn<'py, f64>> {
+    array.try_readwrite().map_err(|_| {
+        PyValueError::new_err("out: found an array that cannot be written to, or is being read")
+    })
 }
 
 fn fits(found: &[usize], expected: &[usize]) -> PyResult<()> {
@@ -243,7 +287,9 @@ fn homogeneous(blocks: &[f64]) -> Vec<f64> {
             (row, column) => block[3 * column + row],
         })
     };
-    blocks.chunks_exact(12).flat_map(matrix).collect()
+    let mut matrices = Vec::with_capacity(blocks.len() / 12 * 16);
+    blocks.chunks_exact(12).for_each(|block| matrices.extend_from_slice(&matrix(block)));
+    matrices
 }
 
 /// Shape and units of an output's result at one pose, in words.

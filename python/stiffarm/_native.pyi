@@ -7,6 +7,8 @@ import numpy
 from numpy.typing import ArrayLike, NDArray
 from typing_extensions import Self
 
+from .outputs import Outputs, Reals
+
 __all__ = [
     "Arm",
     "Effect",
@@ -57,7 +59,7 @@ class Row:
     @property
     def viscous(self) -> float: ...
 
-class Arm:
+class Arm(Outputs):
     def __new__(cls, given: str, text: Optional[bytes], set: Sequence[str], hear: Callable[..., None]) -> Self: ...
     @property
     def name(self) -> str: ...
@@ -99,11 +101,18 @@ class Arm:
         output: str,
         inputs: Sequence[ArrayLike],
         wrench: Optional[ArrayLike] = None,
-        out: Optional[NDArray[numpy.floating[Any]]] = None,
+        out: Optional[Reals] = None,
         sides: Optional[ArrayLike] = None,
         warming: Optional[float] = None,
         at: Optional[str] = None,
-    ) -> NDArray[numpy.floating[Any]]: ...
+    ) -> Reals:
+        """An output by its name."""
+
+    def gravity(
+        self, q: ArrayLike, *,
+        out: Optional[Reals] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None, at: Optional[str] = None,
+    ) -> Reals:
+        """Torques that hold the arm at rest under its weight, (n,): :meth:`inverse_dynamics` where nothing moves."""
 
 @final
 class Reading:

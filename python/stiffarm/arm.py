@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any, Optional, Union
 
 from . import _native
 from .branches import Branches
-from .outputs import Outputs
 from .words import Path, Progress
 
 if TYPE_CHECKING:
@@ -16,13 +15,11 @@ if TYPE_CHECKING:
     import pinocchio
     from numpy.typing import ArrayLike
 
-    from .outputs import Reals
-
 #: An entry of a table: a number in SI, or a text with a unit: ``0.35``, ``"350 mm"``, ``"pi/2"``.
 Cell = Union[float, str]
 
 
-class Arm(_native.Arm, Outputs):
+class Arm(_native.Arm):
     """An arm: its robot file, and everything that is computed of it.
 
     ``q`` is (n,) or (batch, n), rad (m of a prismatic joint); results have the batch in front. An array of doubles that
@@ -113,13 +110,6 @@ class Arm(_native.Arm, Outputs):
         # A diagnosis holds the file of its arm: messages are about that.
         return arm if text is not None or not name.endswith(".json") else cls.from_toml(arm.toml, f"<{os.path.basename(name)}>")
 
-    def gravity(self, q: ArrayLike, **beside: Any) -> Reals:
-        """Torques that hold the arm at rest under its weight, (n,): :meth:`inverse_dynamics` where nothing moves.
-
-        `beside`: ``out``, ``sides``, ``warming``, as of all outputs.
-        """
-        return self.bias(q, [0.0] * self.dof, **beside)
-
     def inverse_kinematics(
         self,
         pose: ArrayLike,
@@ -147,7 +137,7 @@ class Arm(_native.Arm, Outputs):
         return Branches(*self.branches(pose, near, load, sides, warming, what, elbow_angle))
 
     #: Its short name.
-    regressor = Outputs.torque_regressor
+    regressor = _native.Arm.torque_regressor
 
     def compile(self, *, compiler: Optional[str] = None, cache: Optional[Path] = None) -> str:
         """Prints C for the arm, compiles it, compares it with what computed before, and uses it; tells which is in use.

@@ -218,6 +218,10 @@ def test_an_unstable_arm():
         with pytest.raises(stiffarm.Unstable):
             arm.deflection([[0.0]] * 2, loads, out=out)
         assert (out[0] == want.astype(out.dtype)).all()
+    alone = numpy.full(6, 7.0)
+    with pytest.raises(stiffarm.Unstable):
+        arm.deflection(numpy.zeros(1), numpy.array(loads[1]), out=alone)
+    assert (alone == 7.0).all()
 
 
 @pytest.mark.skipif(shutil.which("cc") is None, reason="no C compiler")

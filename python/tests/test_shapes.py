@@ -47,6 +47,29 @@ def test_what_is_not_finite_is_refused(data):
         ARM.pose(q)
 
 
+def test_one_pose_goes_where_it_is_asked_to():
+    q, load = numpy.linspace(-1.0, 1.0, N), numpy.linspace(10.0, 60.0, 6)
+    for call, given in ((ARM.jacobian, [q]), (ARM.pose, [q]), (ARM.frames, [q]), (ARM.hessian, [q]), (ARM.joint_torque, [q, load])):
+        want = call(*(one[None] for one in given))[0]
+        found = call(*given)
+        assert found.shape == want.shape and (found == want).all()
+        plain, wide = numpy.empty(want.shape), numpy.empty((2 * len(want), *want.shape[1:]))
+        for out in (plain, numpy.empty(want.shape[::-1]).T, wide[::2], numpy.empty_like(plain, "f4")):
+            assert call(*given, out=out) is out and (out == want.astype(out.dtype)).all()
+        plain.flags.writeable = False
+        with pytest.raises(ValueError, match="cannot be written"):
+            call(*given, out=plain)
+        with pytest.raises(ValueError, match="out: found the shape"):
+            call(*given, out=numpy.empty((1, *want.shape)))
+        for wrong in (numpy.nan, numpy.inf):
+            with pytest.raises(ValueError, match="not finite, at pose 0"):
+                call(*given[:-1], numpy.append(given[-1][1:], wrong))
+        with pytest.raises(ValueError, match="found the shape"):
+            call(*given[:-1], given[-1][1:])
+        with pytest.raises(TypeError, match="expected real numbers"):
+            call(*given[:-1], given[-1] > 0.0)
+
+
 def test_missing_rows_are_missing():
     q = numpy.random.default_rng(1).uniform(-1, 1, (2, 3, N))
     whole = ARM.jacobian(q)

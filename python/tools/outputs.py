@@ -1,5 +1,5 @@
-"""Writes what the extension module lists: stiffarm/outputs.py, a method for each output, and stiffarm/settings.py, a keyword
-for each setting of a diagnosis.
+"""Writes what the extension module lists: src/arm/methods.rs and stiffarm/outputs.pyi, a method for each output, and
+stiffarm/settings.py, a keyword for each setting of a diagnosis.
 
     python tools/outputs.py           writes them
     python tools/outputs.py --check   exit status 1 if one is another
@@ -10,19 +10,14 @@ import sys
 
 from stiffarm import _native
 
-HEAD = '''"""An arm's outputs, a method each. Written by tools/outputs.py."""
+STUBS = '''"""An arm's outputs, a method each. Written by tools/outputs.py."""
 
-from __future__ import annotations
+from typing import Any, Optional
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, Optional
+import numpy
+from numpy.typing import ArrayLike, NDArray
 
-if TYPE_CHECKING:
-    import numpy
-    from numpy.typing import ArrayLike, NDArray
-
-    Reals = NDArray[numpy.floating[Any]]
-
+Reals = NDArray[numpy.floating[Any]]
 
 class Outputs:
     """What an arm computes.
@@ -32,49 +27,47 @@ class Outputs:
     tool is told of a ``[[frame]]`` or a ``[[marker]]`` of the robot file `at` its name, wrenches and all: ``arm.places`` lists
     them. `sides` (n,), from which side each joint came to rest, and `warming`, K, are for a corrected arm that depends on them.
     """
-
-    def evaluate(
-        self,
-        output: str,
-        inputs: Sequence[ArrayLike],
-        wrench: Optional[ArrayLike] = None,
-        out: Optional[Reals] = None,
-        sides: Optional[ArrayLike] = None,
-        warming: Optional[float] = None,
-        at: Optional[str] = None,
-    ) -> Reals:
-        """An output by its name."""
-        raise NotImplementedError
 '''
+
+METHODS = """//! An arm's outputs, a method each. Written by tools/outputs.py.
+
+use pyo3::prelude::*;
+use stiffarm_kernels::Output;
+
+use super::Arm;
+use super::evaluate::Beside;
+use super::method::methods;
+
+methods! {
+"""
 
 BESIDE = "out: Optional[Reals] = None, sides: Optional[ArrayLike] = None, warming: Optional[float] = None, at: Optional[str] = None"
 
 
-def method(name, sentence, formula, joints, takes_wrench, result):
+def stub(name, sentence, formula, joints, takes_wrench, result):
     given = [f"{argument}: ArrayLike" for argument, _ in joints] + ["wrench: ArrayLike"] * takes_wrench
-    about = [f"        {argument}: {text}." for argument, text in joints]
-    if takes_wrench:
-        about.append("        wrench: force and moment on the tool, N and N·m, base axes, at the tool's origin.")
-    shape, units = result.split("; ", 1)
-    values = ", ".join(argument for argument, _ in joints)
-    wrench = "wrench" if takes_wrench else "None"
-    raises = "\n\n        Raises Unstable where the arm has no stable equilibrium; the others are in `out`." if name in FALLIBLE else ""
     lines = [
         "",
         f"    def {name}(",
         f"        self, {', '.join(given)}, *,",
         f"        {BESIDE},",
         "    ) -> Reals:",
-        f'        """{sentence}',
-        "",
-        f"        {formula}",
-        "",
-        *about,
-        f"        Result: {shape}, in {units}.{raises}",
-        '        """',
-        f'        return self.evaluate("{name}", ({values},), {wrench}, out, sides, warming, at)',
+        f'        """{sentence} Result: {result.replace("; ", ", in ", 1)}."""',
     ]
     return "\n".join(lines) + "\n"
+
+
+def method(name, sentence, formula, joints, takes_wrench, result):
+    about = [sentence, "", formula, "", *(f"{argument}: {text}." for argument, text in joints)]
+    if takes_wrench:
+        about.append("wrench: force and moment on the tool, N and N·m, base axes, at the tool's origin.")
+    about.append(f"Result: {result.replace('; ', ', in ', 1)}.")
+    if name in FALLIBLE:
+        about += ["", "Raises Unstable where the arm has no stable equilibrium; the others are in `out`."]
+    values = ", ".join(argument for argument, _ in joints)
+    output = name.title().replace("_", "")
+    lines = [*(f"/// {line}".rstrip() for line in about), f"{name}({values}{'; wrench' * takes_wrench}) {output};"]
+    return "".join(f"    {line}\n" for line in lines)
 
 
 FALLIBLE = ("deflection", "deflection_with_gravity", "deflection_by_joints", "forward_dynamics")
@@ -105,8 +98,13 @@ def settings():
 
 
 def main():
-    folder = pathlib.Path(__file__).parent.parent / "stiffarm"
-    texts = {"outputs.py": HEAD + "".join(method(*output) for output in _native.outputs()), "settings.py": settings()}
+    folder = pathlib.Path(__file__).parent.parent
+    outputs = _native.outputs()
+    texts = {
+        "src/arm/methods.rs": METHODS + "\n".join(method(*output) for output in outputs) + "}\n",
+        "stiffarm/outputs.pyi": STUBS + "".join(stub(*output) for output in outputs),
+        "stiffarm/settings.py": settings(),
+    }
     if "--check" in sys.argv:
         sys.exit(any((folder / name).read_text(encoding="utf-8") != text for name, text in texts.items()))
     for name, text in texts.items():

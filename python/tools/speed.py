@@ -16,16 +16,16 @@ import stiffarm
 ROUNDS = 15
 
 
-def median(work, repeat=1):
-    """Seconds of one piece of work, the median of some rounds: of the processor, which others may want too."""
-    work()
-    rounds = []
-    for _ in range(ROUNDS):
-        begun = time.process_time()
-        for _ in range(repeat):
-            work()
-        rounds.append((time.process_time() - begun) / repeat)
-    return statistics.median(rounds)
+def least(works, rounds=60, repeat=500):
+    """Microseconds of the processor that each takes: the least of rounds in turn, since others may want the machine too."""
+    taken = dict.fromkeys(works, float("inf"))
+    for _ in range(rounds):
+        for name, work in works.items():
+            begun = time.process_time()
+            for _ in range(repeat):
+                work()
+            taken[name] = min(taken[name], 1e6 * (time.process_time() - begun) / repeat)
+    return taken
 
 
 def batches(program):
@@ -61,27 +61,39 @@ def imports():
 def calls():
     arm = stiffarm.Arm.load("kuka_kr240")
     q, out = numpy.full(6, 0.3), numpy.empty((6, 6)).T
-    print("one Jacobian, µs of the processor:")
-    print(f"  stiffarm           {1e6 * median(lambda: arm.jacobian(q), 2000):.2f}")
-    print(f"  stiffarm, out=     {1e6 * median(lambda: arm.jacobian(q, out=out), 2000):.2f}")
+    works = {
+        "Jacobian": lambda: arm.jacobian(q),
+        "Jacobian, out=": lambda: arm.jacobian(q, out=out),
+        "pose": lambda: arm.pose(q),
+    }
     urdf = stiffarm.generate(arm, "urdf")["kuka_kr240.urdf"]
     try:
         import pinocchio
     except ImportError:
-        print("  Pinocchio          not installed: pip install pin")
+        print("Pinocchio is not installed: pip install pin")
     else:
         model = pinocchio.buildModelFromXML(urdf)
         data, tip = model.createData(), model.nframes - 1
         mixed = pinocchio.LOCAL_WORLD_ALIGNED
-        print(f"  Pinocchio          {1e6 * median(lambda: pinocchio.computeFrameJacobian(model, data, q, tip, mixed), 2000):.2f}")
+
+        def pose():
+            pinocchio.forwardKinematics(model, data, q)
+            return pinocchio.updateFramePlacement(model, data, tip)
+
+        assert numpy.abs(pose().homogeneous - arm.pose(q)).max() < 1e-9
+        works["Pinocchio, Jacobian"] = lambda: pinocchio.computeFrameJacobian(model, data, q, tip, mixed)
+        works["Pinocchio, pose"] = pose
     try:
         import casadi
     except ImportError:
-        print("  CasADi             not installed: pip install casadi")
+        print("CasADi is not installed: pip install casadi")
     else:
         jacobian = by_casadi(casadi, arm)
         assert numpy.abs(numpy.array(jacobian(q))[:3] - arm.jacobian(q)[:3]).max() < 1e-12
-        print(f"  CasADi (3 rows)    {1e6 * median(lambda: jacobian(q), 2000):.2f}")
+        works["CasADi, 3 rows"] = lambda: jacobian(q)
+    print("one call, µs of the processor:")
+    for name, taken in least(works).items():
+        print(f"  {name:<20} {taken:.2f}")
 
 
 def by_casadi(casadi, arm):
