@@ -8,8 +8,8 @@ mod sweep;
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use stiffarm_gap::dexterity::Map;
 use stiffarm_gap::whole::Whole;
+use stiffarm_study::dexterity::Map;
 
 use super::Verdict;
 use crate::host::Host;

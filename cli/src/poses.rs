@@ -6,13 +6,13 @@ mod screen;
 
 use clap::ValueEnum;
 use nalgebra::Vector6;
-use stiffarm_gap::dexterity::design::{Plan, Purpose, Station, Suspect, design};
 use stiffarm_gap::diagnose::Nuisance;
 use stiffarm_gap::effects::Catalogue;
 use stiffarm_gap::instrument::{Lens, View};
 use stiffarm_gap::measurement::Dimension;
 use stiffarm_gap::whole::Whole;
 use stiffarm_kernels::generic::Arm;
+use stiffarm_study::dexterity::design::{Plan, Purpose, Station, Suspect, design};
 
 use super::Verdict;
 use crate::host::Host;

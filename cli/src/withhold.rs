@@ -7,9 +7,9 @@ use std::path::PathBuf;
 
 use stiffarm_gap::Options;
 use stiffarm_gap::plant::{self, Frames};
-use stiffarm_gap::study::withhold::{Campaign, Experiment, Plan, Report, with_findings, withhold};
 use stiffarm_gap::whole::Whole;
 use stiffarm_kernels::generic::Arm;
+use stiffarm_study::withhold::{Campaign, Experiment, Plan, Report, with_findings, withhold};
 
 use super::Verdict;
 use super::simulate::ExperimentArgs;

@@ -14,12 +14,10 @@
 pub mod compensate;
 pub mod controller;
 pub mod corrected;
-pub mod dexterity;
 pub mod diagnose;
 pub mod displacement;
 pub mod doubts;
 pub mod effects;
-pub mod excite;
 #[cfg(test)]
 mod fixture;
 pub mod gap;
@@ -37,15 +35,12 @@ pub mod robot;
 pub mod shrink;
 pub mod simulate;
 pub mod spring;
-pub mod study;
 pub mod whole;
 
 pub use diagnose::{DiagnoseError, Diagnosis, Options, diagnose, diagnose_with};
 pub use infer::rng;
 pub use io::ReadError;
 pub use measurement::Measurements;
-#[doc(hidden)]
-pub use study::withhold;
 
 use infer::parallel;
 use stiffarm_infer as infer;

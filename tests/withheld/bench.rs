@@ -6,7 +6,7 @@ use stiffarm_gap::instrument::{Bench, Seen};
 use stiffarm_gap::measurement::Kind;
 use stiffarm_gap::plant::design::{Design, Shape, beside};
 use stiffarm_gap::plant::{Frames, Noise, effects};
-use stiffarm_gap::study::withhold::{Campaign, Experiment, Report, with_findings};
+use stiffarm_study::withhold::{Campaign, Experiment, Report, with_findings};
 
 use crate::arms::arm;
 use crate::goals::{BENCH, Goals};

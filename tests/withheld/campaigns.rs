@@ -4,7 +4,7 @@ use stiffarm_gap::Options;
 use stiffarm_gap::measurement::Kind;
 use stiffarm_gap::plant::design::{Design, Shape};
 use stiffarm_gap::plant::{Noise, effects};
-use stiffarm_gap::study::withhold::{Campaign, Experiment, Report, with_findings};
+use stiffarm_study::withhold::{Campaign, Experiment, Report, with_findings};
 
 use crate::arms::arm;
 use crate::goals::{CAMPAIGNS, Goals};

@@ -4,7 +4,7 @@ use core::fmt;
 
 use serde::Serialize;
 use statrs::distribution::{Binomial, DiscreteCDF};
-use stiffarm_gap::study::withhold::{Kind, Rate, Report};
+use stiffarm_study::withhold::{Kind, Rate, Report};
 
 /// A rate and its goal.
 #[derive(Clone, Debug, Serialize)]

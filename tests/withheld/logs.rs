@@ -15,8 +15,8 @@ use stiffarm_gap::log::LogOptions;
 use stiffarm_gap::motion::{Fourier, Limits};
 use stiffarm_gap::plant::motion::{LAWS, Law, Logged, Recording, Side, Stage};
 use stiffarm_gap::rng::{Rng, Stream};
-use stiffarm_gap::study::withhold::{Experiment, Motion, Report};
 use stiffarm_kernels::generic::Arm;
+use stiffarm_study::withhold::{Experiment, Motion, Report};
 
 use crate::arms::file;
 use crate::goals::{Goals, LOGS};

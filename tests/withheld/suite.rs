@@ -1,7 +1,7 @@
 //! What every suite is: settings, each a configuration of the bench with an arm of its own.
 
-use stiffarm_gap::study::withhold::{Case, Experiment, Kind, Named, Plan, Report, withhold};
 use stiffarm_kernels::generic::Arm;
+use stiffarm_study::withhold::{Case, Experiment, Kind, Named, Plan, Report, withhold};
 
 /// Tries so many cases.
 pub fn tried(

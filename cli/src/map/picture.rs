@@ -1,7 +1,7 @@
 //! A map as a picture.
 
 use askama::Template;
-use stiffarm_gap::dexterity::Map;
+use stiffarm_study::dexterity::Map;
 
 use super::quantity_of::Quantity;
 use super::sweep::{Moved, Sweep};
@@ -264,9 +264,9 @@ fn beside([x, y]: [f64; 2], text: String) -> ((String, String, Label), [f64; 2])
 }
 
 /// The lowest and the highest cell among those that have a value.
-fn peaks(map: &Map) -> [stiffarm_gap::dexterity::Peak; 2] {
+fn peaks(map: &Map) -> [stiffarm_study::dexterity::Peak; 2] {
     let first = || map.cells().filter(|cell| cell.value.is_finite());
-    let none = stiffarm_gap::dexterity::Peak { value: 0.0, first: 0.0, second: 0.0 };
+    let none = stiffarm_study::dexterity::Peak { value: 0.0, first: 0.0, second: 0.0 };
     [
         first().min_by(|a, b| a.value.total_cmp(&b.value)).unwrap_or(none),
         first().max_by(|a, b| a.value.total_cmp(&b.value)).unwrap_or(none),

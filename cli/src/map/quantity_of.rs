@@ -3,13 +3,13 @@
 use clap::ValueEnum;
 use nalgebra::{Vector3, Vector6};
 use stiffarm_gap::DiagnoseError;
-use stiffarm_gap::dexterity::{
-    DexterityError, Search, characteristic_length, influence, inverse_condition,
-};
 use stiffarm_gap::measurement::Dimension;
 use stiffarm_gap::whole::{Situation, Whole};
 use stiffarm_kernels::generic::Arm;
 use stiffarm_kernels::{Output, Unstable};
+use stiffarm_study::dexterity::{
+    DexterityError, Search, characteristic_length, influence, inverse_condition,
+};
 
 use super::learnt::Learnt;
 use crate::input::quantity;

@@ -1,8 +1,8 @@
 //! The grid of a map: the two joints that move, as they are shown, and where the others stand.
 
-use stiffarm_gap::dexterity::Plane;
 use stiffarm_gap::measurement::Dimension;
 use stiffarm_kernels::generic::Arm;
+use stiffarm_study::dexterity::Plane;
 
 use super::axes::Axes;
 use crate::input::source::Source;

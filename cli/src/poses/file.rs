@@ -2,12 +2,12 @@
 
 use nalgebra::Vector6;
 use stiffarm_codegen::robot::Frame;
-use stiffarm_gap::dexterity::design::{Design, Plan, Planned, Station};
 use stiffarm_gap::instrument::{Look, Seen};
 use stiffarm_gap::io::{Columns, digits, quoted};
 use stiffarm_gap::measurement::{
     DISPLACEMENT_NAMES, Dimension, PIXEL_NAMES, POSE_NAMES, WRENCH_NAMES,
 };
+use stiffarm_study::dexterity::design::{Design, Plan, Planned, Station};
 
 use crate::input::source::Source;
 

@@ -1,10 +1,10 @@
 //! Commands of a motion whose log says most.
 
 use stiffarm_gap::effects::Spot;
-use stiffarm_gap::excite::{Excitation, Plan, Purpose, excite};
 use stiffarm_gap::motion::{Course, commands};
 use stiffarm_gap::plant::motion::{Law, Logged, MotionTruth, Side};
 use stiffarm_kernels::generic::Arm;
+use stiffarm_study::excite::{Excitation, Plan, Purpose, excite};
 
 use super::Args;
 use crate::Verdict;

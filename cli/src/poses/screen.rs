@@ -1,8 +1,8 @@
 //! The plan as it is said: what the tests will tell.
 
-use stiffarm_gap::dexterity::design::{DEVIATIONS, Design, Expected, Plan, Planned, Purpose};
 use stiffarm_gap::measurement::Dimension;
 use stiffarm_kernels::generic::Arm;
+use stiffarm_study::dexterity::design::{DEVIATIONS, Design, Expected, Plan, Planned, Purpose};
 
 use crate::document::Unit;
 use crate::input::quantity;

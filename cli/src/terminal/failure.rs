@@ -90,10 +90,10 @@ macro_rules! plain {
 
 plain!(
     stiffarm_codegen::emit::SymbolicTable,
-    stiffarm_gap::dexterity::DexterityError,
-    stiffarm_gap::dexterity::design::SuspectError,
+    stiffarm_study::dexterity::DexterityError,
+    stiffarm_study::dexterity::design::SuspectError,
     stiffarm_gap::diagnose::DiagnoseError,
-    stiffarm_gap::excite::ExciteError,
+    stiffarm_study::excite::ExciteError,
     stiffarm_gap::identify::measured::MeasuredError,
     stiffarm_gap::io::ReadError,
     stiffarm_gap::log::Refused,
@@ -102,7 +102,7 @@ plain!(
     stiffarm_gap::plant::TruthError,
     stiffarm_gap::plant::motion::MotionError,
     stiffarm_gap::robot::RobotError,
-    stiffarm_gap::study::withhold::WithholdError,
+    stiffarm_study::withhold::WithholdError,
 );
 
 /// What the system says, in words.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use stiffarm_gap::study::withhold::{Case, Confusion, Facts, Rate, Report};
+use stiffarm_study::withhold::{Case, Confusion, Facts, Rate, Report};
 
 use crate::document::report::Method;
 use crate::document::words::{percent, words};

@@ -2,7 +2,7 @@
 
 use stiffarm_gap::log::LogOptions;
 use stiffarm_gap::plant::motion::{LAWS, Law, Logged};
-use stiffarm_gap::study::withhold::{Experiment, Motion, Report};
+use stiffarm_study::withhold::{Experiment, Motion, Report};
 
 use super::Args;
 use crate::host::Host;

@@ -9,7 +9,7 @@ use crate::io::{did_you_mean, nearest};
 ///
 /// # Errors
 /// What is wrong with it, in words: an unknown effect, or a place where it cannot act.
-pub(crate) fn at_place(
+pub fn at_place(
     text: &str,
     arm: &Arm,
     known: impl IntoIterator<Item = &'static dyn AtRest>,

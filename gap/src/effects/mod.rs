@@ -31,7 +31,8 @@ mod told;
 
 pub use stiffarm_codegen::robot::beyond::Quantity;
 
-pub(crate) use at_place::{at_place, cannot_act};
+pub use at_place::at_place;
+pub(crate) use at_place::cannot_act;
 pub use at_rest::{AtRest, Gives};
 pub use carrier::Carrier;
 pub use catalogue::*;

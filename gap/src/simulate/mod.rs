@@ -59,10 +59,12 @@ pub fn simulate(arm: &Arm, row: &Row, kind: Kind) -> Result<Sim, Unstable> {
     Ok(sim?.seen_by(row.view(kind)))
 }
 
-pub(crate) fn translation(twist: &Vector6<f64>) -> Vector3<f64> {
+/// The first three components of a twist, or of a displacement.
+pub fn translation(twist: &Vector6<f64>) -> Vector3<f64> {
     twist.fixed_rows::<3>(0).into_owned()
 }
 
-pub(crate) fn rotation(twist: &Vector6<f64>) -> Vector3<f64> {
+/// The last three.
+pub fn rotation(twist: &Vector6<f64>) -> Vector3<f64> {
     twist.fixed_rows::<3>(3).into_owned()
 }

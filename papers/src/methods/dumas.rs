@@ -1,7 +1,9 @@
 //! Numbers in the running text of Dumas et al.
 
 use nalgebra::Vector6;
-use stiffarm_gap::dexterity::{Plane, Search, characteristic_length as length, influence as index};
+use stiffarm_study::dexterity::{
+    Plane, Search, characteristic_length as length, influence as index,
+};
 
 /// L, m (section 2.2).
 pub fn characteristic_length() -> Result<Vec<f64>, String> {
@@ -17,7 +19,7 @@ pub fn influence() -> Result<Vec<f64>, String> {
     let wrench = Vector6::new(0.0, 0.0, -2000.0, 200.0, 200.0, 0.0);
     let plane = Plane::over_limits(&arm, &posture, [1, 2], 2f64.to_radians());
     let plane = plane.map_err(|error| error.to_string())?;
-    let largest = |part: fn(&stiffarm_gap::dexterity::Influence) -> f64| {
+    let largest = |part: fn(&stiffarm_study::dexterity::Influence) -> f64| {
         let map = plane.map(|q| index(&arm, q, &wrench).map(|found| part(&found)));
         let peak = map.map_err(|error| error.to_string())?.max().ok_or("an empty map")?;
         Ok::<f64, String>(peak.value)

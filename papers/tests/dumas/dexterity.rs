@@ -1,7 +1,7 @@
 //! κ_F and the characteristic length.
 
 use nalgebra::{DMatrix, Vector6};
-use stiffarm_gap::dexterity::{
+use stiffarm_study::dexterity::{
     DexterityError, Search, best_length, characteristic_length, condition_number, influence,
     inverse_condition, normalised_jacobian,
 };

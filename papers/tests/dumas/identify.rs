@@ -2,8 +2,8 @@
 //! measurement file has.
 
 use nalgebra::Matrix6;
-use stiffarm_gap::dexterity::design::{Plan, Purpose, design};
 use stiffarm_gap::identify::measured::{Status, Unknown};
+use stiffarm_study::dexterity::design::{Plan, Purpose, design};
 
 use super::near;
 use super::rig::{NONE, QUOTED, RIG, Rig, identified, with_tool};

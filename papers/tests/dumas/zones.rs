@@ -1,6 +1,6 @@
 //! The maps of Figs. 3 and 4 and the zones of Table 1.
 
-use stiffarm_gap::dexterity::{DexterityError, Map, Peak, Plane, influence, inverse_condition};
+use stiffarm_study::dexterity::{DexterityError, Map, Peak, Plane, influence, inverse_condition};
 
 use super::{LENGTH, kr240, near, wrench};
 

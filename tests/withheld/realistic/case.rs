@@ -10,8 +10,8 @@ use stiffarm_gap::corrected::corrected;
 use stiffarm_gap::diagnose::{Diagnosed, Finding, Nuisance};
 use stiffarm_gap::effects::{Catalogue, Known};
 use stiffarm_gap::gap::{Statistics, rms};
-use stiffarm_gap::study::withhold::Named;
 use stiffarm_gap::{Options, diagnose_with};
+use stiffarm_study::withhold::Named;
 
 use super::draw::{Drawn, lasts};
 

@@ -7,8 +7,8 @@ use stiffarm_gap::effects::{Draw, Effect, Place, Quantity};
 use stiffarm_gap::measurement::{Layout, Measurements};
 use stiffarm_gap::plant::{Frames, Instrument, Noise, Plant, Scatter, Truth, csv, effects};
 use stiffarm_gap::rng::{Rng, Stream};
-use stiffarm_gap::study::withhold::resized;
 use stiffarm_kernels::generic::Arm;
+use stiffarm_study::withhold::resized;
 
 use super::case::GEOMETRY;
 use super::floor::errors;

@@ -4,7 +4,7 @@ use core::fmt;
 
 use serde::Serialize;
 use stiffarm_gap::gap::percentile;
-use stiffarm_gap::study::withhold::Rate;
+use stiffarm_study::withhold::Rate;
 
 use super::case::{Case, Shrink};
 use crate::goals::{Goal, missed};

@@ -27,7 +27,7 @@ use stiffarm_kernels::generic::Arm;
 
 pub use known::known;
 pub use laws::{LAWS, Law};
-pub(crate) use record::spread;
+pub use record::spread;
 pub use record::{Recorded, Recording, Side};
 pub use text::csv;
 pub use truth::MotionTruth;

@@ -15,8 +15,8 @@ pub mod law;
 mod recursion;
 
 use nalgebra::{DVector, Vector6};
-use stiffarm_gap::dexterity::DexterityError;
 use stiffarm_kernels::generic::Arm;
+use stiffarm_study::dexterity::DexterityError;
 
 pub use recursion::Loaded;
 

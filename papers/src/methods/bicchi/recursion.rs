@@ -17,10 +17,10 @@
 //! slope φ), while the frames turn as far as they like. The links' own weights are left out.
 
 use nalgebra::{Isometry3, Matrix6, Matrix6xX, Vector3, Vector6};
-use stiffarm_gap::dexterity::check_posture;
 use stiffarm_gap::displacement::Displacement;
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::{Arm, Convention};
+use stiffarm_study::dexterity::check_posture;
 
 use super::ForceError;
 use crate::methods::transport::wrench_matrix;

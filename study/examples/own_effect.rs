@@ -17,9 +17,9 @@ use stiffarm_gap::measurement::{Kind, Measurements, Row};
 use stiffarm_gap::plant::design::{Design, Shape};
 use stiffarm_gap::plant::{Noise, Truth, blurred};
 use stiffarm_gap::simulate::Moment;
-use stiffarm_gap::study::withhold::exact;
 use stiffarm_gap::{Diagnosis, Options, diagnose};
 use stiffarm_kernels::generic::Arm;
+use stiffarm_study::withhold::exact;
 
 /// How far the joint stays behind per angle beyond the one at which the hose is taut; the form is that
 /// angle, degrees.

@@ -10,7 +10,7 @@ use stiffarm_gap::effects::{Over, Told};
 use stiffarm_gap::measurement::Kind;
 use stiffarm_gap::plant::Noise;
 use stiffarm_gap::plant::design::{Design, Shape};
-use stiffarm_gap::study::withhold::{self, Campaign, Experiment, Plan, with_findings, withhold};
+use stiffarm_study::withhold::{self, Campaign, Experiment, Plan, with_findings, withhold};
 
 #[test]
 fn an_effect_of_ones_own_is_found_and_told() {
