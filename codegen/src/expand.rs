@@ -1,6 +1,8 @@
 //! The macro: tokens in, a module out. `stiffarm-macros` is a shim over [`expand`].
 
 mod stub;
+#[cfg(feature = "urdf")]
+mod urdf;
 
 use std::path::Path;
 
@@ -9,12 +11,12 @@ use quote::{quote, quote_spanned};
 use syn::{LitStr, Visibility};
 
 use crate::emit::{RustOptions, rust};
-#[cfg(feature = "urdf")]
-use crate::robot::urdf::invoked as urdf;
 use crate::robot::{
     File, Located, Outline, Rejected, Robot, Source, SpannedError, closest, parse_tokens,
 };
 use stub::stub;
+#[cfg(feature = "urdf")]
+use urdf::invoked;
 
 /// Expands a `robot!` invocation. `root` is the folder that robot files are looked for in: the one of
 /// the invoking crate's Cargo.toml.
@@ -143,7 +145,7 @@ fn understood(file: &File, text: &str) -> Result<(Robot, Vec<String>), Vec<Locat
     let name = file.name.value();
     if file.is_urdf() {
         let [base, tip] = [&file.base, &file.tip].map(|link| link.as_ref().map(LitStr::value));
-        return urdf(text, &name, (base.as_deref(), tip.as_deref()));
+        return invoked(text, &name, (base.as_deref(), tip.as_deref()));
     }
     match Robot::for_kernels(text, &name) {
         // A macro cannot warn on stable Rust, and a doubt must not pass in silence.
@@ -154,7 +156,7 @@ fn understood(file: &File, text: &str) -> Result<(Robot, Vec<String>), Vec<Locat
 }
 
 #[cfg(not(feature = "urdf"))]
-fn urdf(
+fn invoked(
     text: &str,
     path: &str,
     _: (Option<&str>, Option<&str>),

@@ -11,14 +11,11 @@ pub mod emit;
 #[cfg(feature = "macro")]
 mod expand;
 pub mod expr;
-mod frontends;
 mod ir;
-pub mod number;
 mod out_dir;
 pub mod program;
-pub mod robot;
-mod schema;
 
 #[cfg(feature = "macro")]
 pub use expand::expand;
 pub use out_dir::{BuildError, generate_to_out_dir, read_robot};
+pub use stiffarm_table::{number, robot};

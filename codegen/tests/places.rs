@@ -16,7 +16,7 @@ struct Source {
 
 fn sources() -> Vec<Source> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the workspace's folder");
-    let mut folders: Vec<PathBuf> = vec![root.join("codegen/src"), root.join("kernels/src")];
+    let mut folders: Vec<PathBuf> = vec![root.join("codegen/src"), root.join("table/src"), root.join("kernels/src")];
     let mut found = Vec::new();
     while let Some(folder) = folders.pop() {
         for entry in fs::read_dir(folder).expect("a folder of sources") {
@@ -53,10 +53,10 @@ fn an_output_stands_in_three_places() {
     // three outputs of it, and in NumPy two.
     let apart = [
         ("codegen/src/derive/flexible.rs", Output::Pose),
-        ("codegen/src/frontends/urdf/invoked.rs", Output::Pose),
-        ("codegen/src/robot/nearest.rs", Output::Pose),
-        ("codegen/src/robot/nearest.rs", Output::Jacobian),
-        ("codegen/src/robot/nearest.rs", Output::DeflectionWithGravity),
+        ("codegen/src/expand/urdf.rs", Output::Pose),
+        ("table/src/robot/nearest.rs", Output::Pose),
+        ("table/src/robot/nearest.rs", Output::Jacobian),
+        ("table/src/robot/nearest.rs", Output::DeflectionWithGravity),
         ("codegen/src/emit/numpy/as_it_is.rs", Output::Pose),
         ("codegen/src/emit/numpy/as_it_is.rs", Output::Jacobian),
     ];
@@ -79,7 +79,7 @@ fn an_output_stands_in_three_places() {
         let named: Vec<&str> = sources
             .iter()
             // A number of an effect may be called as an output is.
-            .filter(|source| !source.path.starts_with("codegen/src/robot/beyond/"))
+            .filter(|source| !source.path.starts_with("table/src/robot/beyond/"))
             .filter(|source| source.text.contains(&quoted) || source.text.contains(&row))
             .map(|source| source.path.as_str())
             .collect();

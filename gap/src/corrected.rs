@@ -4,7 +4,7 @@
 //! entries, what these cannot hold into `[[effect]]` tables: the file is the model that was fitted.
 //! Entries that nothing was found about stay as they are, exact multiples of π too.
 
-use stiffarm_codegen::robot::Robot;
+use stiffarm_table::robot::Robot;
 
 use crate::diagnose::{Diagnosed, Nuisance, NuisanceReport};
 use crate::effects::{Catalogue, Known, KnownError, RobotFile};

@@ -3,7 +3,7 @@
 use core::f64::consts::PI;
 
 use nalgebra::{Isometry3, Matrix3, Translation3, UnitQuaternion, Vector3};
-use stiffarm_codegen::robot::{self, Angle, Frame, Robot, Value};
+use stiffarm_table::robot::{self, Angle, Frame, Robot, Value};
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::{Arm, Beam, Drive, Joint};
 
@@ -238,7 +238,7 @@ fn beam(read: &mut Reader, beam: &robot::Beam, joint: &str) -> Beam {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use stiffarm_codegen::number::Number;
+    use stiffarm_table::number::Number;
 
     fn number(text: &str) -> Value {
         Value::Number(Number::from_decimal(text).unwrap())

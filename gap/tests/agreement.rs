@@ -1,7 +1,7 @@
 //! One number, one model: the gap that a diagnosis announces, what its model leaves on the same
 //! rows, and what the robot that it writes leaves there.
 
-use stiffarm_codegen::robot::Robot;
+use stiffarm_table::robot::Robot;
 use stiffarm_gap::corrected::{corrected, folded};
 use stiffarm_gap::diagnose::{Diagnosed, Nuisance};
 use stiffarm_gap::effects::Catalogue;

@@ -44,7 +44,7 @@ fn an_identifier_stands_in_its_own_file_alone() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the workspace");
     let mut all = Vec::new();
     for package in
-        ["gap", "study", "infer", "io", "observe", "codegen", "kernels", "robots", "cli", "papers"]
+        ["gap", "study", "infer", "io", "observe", "table", "codegen", "kernels", "robots", "cli", "papers"]
     {
         if root.join(package).is_dir() {
             sources(&root.join(package), &mut all);
@@ -54,8 +54,8 @@ fn an_identifier_stands_in_its_own_file_alone() {
     // laws, of which the bench draws the sizes: that doubling is the proof. What is mutated by chance
     // begins with a file that has some.
     let apart = [
-        "codegen/src/robot/beyond",
-        "codegen/src/frontends/fuzz.rs",
+        "table/src/robot/beyond",
+        "table/src/frontends/fuzz.rs",
         "gap/src/plant/motion",
         "study/src/withhold/motion.rs",
     ];

@@ -7,7 +7,7 @@
 
 use std::path::PathBuf;
 
-use stiffarm_codegen::robot::Robot;
+use stiffarm_table::robot::Robot;
 use stiffarm_gap::diagnose::Nuisance;
 use stiffarm_gap::gap::Statistics;
 use stiffarm_gap::{Measurements, Options, diagnose_with};

@@ -112,7 +112,7 @@ pub fn diagnosed(arm: &Arm, data: &Measurements) -> Diagnosis {
 
 /// The arm: an elbow with weights and no springs.
 pub fn arm() -> Arm {
-    let (robot, _) = stiffarm_codegen::robot::Robot::from_toml(ELBOW, "elbow.toml")
+    let (robot, _) = stiffarm_table::robot::Robot::from_toml(ELBOW, "elbow.toml")
         .expect("a robot file without mistakes");
     stiffarm_gap::robot::arm(&robot).expect("a robot file with numbers")
 }

@@ -1,6 +1,6 @@
 //! What the caller may choose, and what can stand in the way of a diagnosis.
 
-use stiffarm_codegen::robot::Robot;
+use stiffarm_table::robot::Robot;
 
 use super::prior::Prior;
 use super::progress::Stop;

@@ -29,7 +29,7 @@ mod scene;
 mod tests;
 mod told;
 
-pub use stiffarm_codegen::robot::beyond::Quantity;
+pub use stiffarm_table::robot::beyond::Quantity;
 
 pub use at_place::at_place;
 pub(crate) use at_place::cannot_act;

@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-pub use stiffarm_codegen::robot::beyond::Place;
+pub use stiffarm_table::robot::beyond::Place;
 
 use super::At;
 

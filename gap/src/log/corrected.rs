@@ -4,7 +4,7 @@
 //! entry holds into `[[effect]]` tables, which a later diagnosis of a log takes as known.
 
 use nalgebra::{DMatrix, DVector};
-use stiffarm_codegen::robot::Robot;
+use stiffarm_table::robot::Robot;
 use stiffarm_kernels::generic::Arm;
 
 use super::bodies::{bodies, moments};

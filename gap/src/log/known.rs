@@ -3,7 +3,7 @@
 //! A table is one of motion if its identifier is in the catalogue of logs, its place is one of theirs and its
 //! keys are that effect's numbers: a coupling is told from that at rest by them. Backlash is both.
 
-use stiffarm_codegen::robot::{Effect as Table, Entry, Quantity as Given};
+use stiffarm_table::robot::{Effect as Table, Entry, Quantity as Given};
 
 use super::model::Acting;
 use super::scene::Domain;
@@ -98,7 +98,7 @@ fn spot(table: &Table, joints: usize) -> Option<Spot> {
 
 #[cfg(test)]
 mod tests {
-    use stiffarm_codegen::robot::Robot;
+    use stiffarm_table::robot::Robot;
 
     use super::*;
     use crate::effects::{AtRest, Catalogue, Depends};

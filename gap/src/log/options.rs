@@ -1,6 +1,6 @@
 //! What may be said of a log's diagnosis, and what stands in its way.
 
-use stiffarm_codegen::robot::Effect;
+use stiffarm_table::robot::Effect;
 
 use super::effects::Catalogue;
 use super::read::{Log, Signal, TorqueSide};

@@ -14,8 +14,8 @@ mod rows;
 mod search;
 mod words;
 
-use stiffarm_codegen::number::Number;
-use stiffarm_codegen::robot::{Angle, Convention, Joint, Robot, Value};
+use stiffarm_table::number::Number;
+use stiffarm_table::robot::{Angle, Convention, Joint, Robot, Value};
 use stiffarm_kernels::generic::Arm;
 
 use crate::diagnose::{Nuisance, Options};
@@ -231,7 +231,7 @@ fn known(mistakes: &[Mistake], known: &[Known], catalogue: &Catalogue) -> Vec<Kn
                 spot,
                 values: vec![ratio],
                 session: None,
-                at: stiffarm_codegen::robot::Spot::default(),
+                at: stiffarm_table::robot::Spot::default(),
             }),
         }
     }

@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 use proptest::sample::{Index, select};
-use stiffarm_codegen::robot::Motion;
+use stiffarm_table::robot::Motion;
 use stiffarm_draws::texts::{PIECES_OF_TABLES, answered, mutated};
 use stiffarm_gap::Measurements;
 use stiffarm_gap::io::{MOST_MISTAKES, Map, Mistake, ReadError};

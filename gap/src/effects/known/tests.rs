@@ -1,6 +1,6 @@
 //! What an `[[effect]]` may say, and what it may not.
 
-use stiffarm_codegen::robot::Robot;
+use stiffarm_table::robot::Robot;
 
 use super::*;
 

@@ -1,6 +1,6 @@
 //! What a robot file says of the arm in motion beyond its table, as the plant has it.
 
-use stiffarm_codegen::robot::{Effect, Quantity};
+use stiffarm_table::robot::{Effect, Quantity};
 use stiffarm_kernels::generic::Arm;
 
 use super::truth::MotionTruth;

@@ -48,7 +48,7 @@ impl Located {
         Located::new(path, text, problem)
     }
 
-    pub(crate) fn new(path: &str, text: &str, problem: Problem<Range<usize>>) -> Self {
+    pub fn new(path: &str, text: &str, problem: Problem<Range<usize>>) -> Self {
         let end = text.len();
         let start = floor_boundary(text, problem.at.start.min(end));
         let stop = floor_boundary(text, problem.at.end.clamp(start, end));
@@ -120,7 +120,7 @@ fn floor_boundary(text: &str, at: usize) -> usize {
 }
 
 impl FileError {
-    pub(crate) fn new(path: &str, text: &str, report: Report<Range<usize>>) -> Self {
+    pub fn new(path: &str, text: &str, report: Report<Range<usize>>) -> Self {
         FileError {
             path: path.to_owned(),
             text: text.to_owned(),

@@ -9,16 +9,16 @@ use super::problem::{Place, Problem, Report};
 use super::suggest::advice;
 
 /// The name of the inverse kinematics among outputs, and of its function where that is a closed form.
-pub(crate) const INVERSE_KINEMATICS: &str = "inverse_kinematics";
+pub const INVERSE_KINEMATICS: &str = "inverse_kinematics";
 
 /// What the inverse kinematics of seven joints is given in place of one of them, and the name of the function that tells it.
-pub(crate) const ELBOW_ANGLE: &str = "elbow_angle";
+pub const ELBOW_ANGLE: &str = "elbow_angle";
 
 /// The name of the closed form's function where it is that of another table.
-pub(crate) const CLOSED_FORM: &str = "closed_form";
+pub const CLOSED_FORM: &str = "closed_form";
 
 /// The name of the function of what gives in an arm at rest.
-pub(crate) const GIVES: &str = "gives";
+pub const GIVES: &str = "gives";
 
 /// An output that is asked for: `jacobian`, or `jacobian at elbow`.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -25,7 +25,7 @@ impl Place for Range<usize> {
 
 /// One mistake: what was found and what was expected there.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Problem<L> {
+pub struct Problem<L> {
     /// Where the mistake stands.
     pub at: L,
     /// What was found and what was expected.

@@ -45,7 +45,7 @@ impl Robot {
 
     /// Its axes with the joint values at zero, base axes; symbols count as zero, and joints beyond as many as it has stand on
     /// the tool.
-    pub(crate) fn axes<const N: usize>(&self) -> Axes<N> {
+    pub fn axes<const N: usize>(&self) -> Axes<N> {
         let length = |x: f64| Frame::moved([x, 0.0, 0.0]);
         let placed = |frame: &super::Frame| Frame {
             origin: frame.translation.each_ref().map(Value::or_zero),

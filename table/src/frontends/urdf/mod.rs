@@ -16,7 +16,6 @@ mod document;
 mod from_robot;
 #[cfg(test)]
 mod fuzz;
-mod invoked;
 mod masses;
 mod read;
 mod refusal;
@@ -27,7 +26,6 @@ mod tree;
 pub use crate::robot::space::Frame;
 pub use chain::{Chain, Step};
 pub use document::Elements;
-pub use invoked::invoked;
 pub use masses::Lump;
 pub use read::{Urdf, bytes, read};
 pub use refusal::{Place, Refusal};

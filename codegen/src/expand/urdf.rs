@@ -2,9 +2,9 @@
 
 use core::ops::Range;
 
-use super::{Chain, Refusal, Table, bytes, read, robot_file};
 use crate::derive::{Output, derive};
 use crate::robot::problem::Problem;
+use crate::robot::urdf::{Chain, Refusal, Table, bytes, read, robot_file};
 use crate::robot::{Located, Robot};
 
 /// How far the table's tip may be from the URDF's, m and rad: rounding of a few dozen rotations, of arms of some

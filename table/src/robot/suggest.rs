@@ -2,7 +2,7 @@
 
 /// The known word that an unknown one was probably meant to be: the same letters in another case
 /// first, else the one fewest edits away, if that is few for a word of this length.
-pub(crate) fn closest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+pub fn closest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let length = word.chars().count();
     let allowed = (length / 3).max(1).min(length.saturating_sub(1));
     known

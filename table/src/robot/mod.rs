@@ -17,8 +17,8 @@ mod model;
 pub(crate) mod names;
 mod nearest;
 mod payload;
-pub(crate) mod pi;
-pub(crate) mod problem;
+pub mod pi;
+pub mod problem;
 pub(crate) mod quantity;
 mod search;
 mod section;
@@ -38,13 +38,13 @@ pub use closed_form::{ClosedForm, Family, Position, Redundancy};
 pub use diagnostic::{FileError, Located, Warning};
 pub use dimension::Dimension;
 pub use frames::{Asked, Refused, Wanted};
-pub(crate) use frames::{CLOSED_FORM, ELBOW_ANGLE, GIVES, INVERSE_KINEMATICS};
+pub use frames::{CLOSED_FORM, ELBOW_ANGLE, GIVES, INVERSE_KINEMATICS};
 pub use model::{
     Angle, At, Beam, Convention, Drive, Effect, Entry, Frame, Joint, Marker, Motion, NamedFrame,
     Output, Payload, Quantity, Robot, Section, Spot, Value,
 };
-pub(crate) use names::is_keyword;
-pub(crate) use nearest::{DEFLECTION, STEPPED};
+pub use names::is_keyword;
+pub use nearest::{DEFLECTION, STEPPED};
 pub use sliding::Sliding;
 #[cfg(feature = "macro")]
-pub(crate) use suggest::closest;
+pub use suggest::closest;

@@ -266,7 +266,7 @@ impl Value {
     }
 
     /// The number as a double; a symbol counts as zero.
-    pub(crate) fn or_zero(&self) -> f64 {
+    pub fn or_zero(&self) -> f64 {
         self.number().map_or(0.0, Number::to_f64)
     }
 }
@@ -285,7 +285,7 @@ impl Angle {
     }
 
     /// The angle in radians; a symbol counts as zero.
-    pub(crate) fn or_zero(&self) -> f64 {
+    pub fn or_zero(&self) -> f64 {
         self.radians().unwrap_or_default()
     }
 

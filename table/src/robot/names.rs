@@ -47,7 +47,7 @@ pub(crate) fn refused(name: &str) -> Option<(String, &'static str)> {
 }
 
 /// Whether Rust means something else by a name.
-pub(crate) fn is_keyword(name: &str) -> bool {
+pub fn is_keyword(name: &str) -> bool {
     KEYWORDS.contains(&name)
 }
 

@@ -16,10 +16,10 @@ pub(super) const OFF: f64 = 1e-2;
 const SQUARE: f64 = 2e-3;
 
 /// What the steps behind a closed form take.
-pub(crate) const STEPPED: [Output; 2] = [Output::Pose, Output::Jacobian];
+pub const STEPPED: [Output; 2] = [Output::Pose, Output::Jacobian];
 
 /// What set-points take besides.
-pub(crate) const DEFLECTION: Output = Output::DeflectionWithGravity;
+pub const DEFLECTION: Output = Output::DeflectionWithGravity;
 
 /// The first three axes of a spherical wrist's arm, the most usual first.
 const POSITIONS: [Position; 4] = [
@@ -88,19 +88,19 @@ impl Robot {
     }
 
     /// Whether the closed form tells its joint values without a step behind.
-    pub(crate) fn has_closed_form(&self) -> bool {
+    pub fn has_closed_form(&self) -> bool {
         !self.beyond.grows() && self.closed_form().is_ok()
     }
 
     /// Whether set-points under a load are generated: where the inverse kinematics is, and the deflection under weights.
-    pub(crate) fn has_set_points(&self) -> bool {
+    pub fn has_set_points(&self) -> bool {
         let deflects = || self.generated().contains(&DEFLECTION);
         self.inverse_kinematics.is_some() && deflects()
     }
 
     /// The nearest table with a closed form: the table itself where it has it, else but for the entries that are zero in it,
     /// parallel or at right angles.
-    pub(crate) fn nearest(&self, form: ClosedForm) -> Robot {
+    pub fn nearest(&self, form: ClosedForm) -> Robot {
         let mut table = self.clone();
         if form.is_search() || self.closed_form() == Ok(form) {
             return table;
@@ -154,7 +154,7 @@ impl Robot {
     }
 
     /// The sum of the table's lengths, m; parameters count as none.
-    pub(crate) fn size(&self) -> f64 {
+    pub fn size(&self) -> f64 {
         let lengths = self.joints.iter().flat_map(|joint| [&joint.a, &joint.d]);
         lengths.map(|length| length.or_zero().abs()).sum()
     }

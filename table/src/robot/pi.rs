@@ -99,7 +99,7 @@ impl Angle {
 }
 
 /// `r·π` as a robot file or a table writes it: `pi/2`, `-3*pi/4`, `0`.
-pub(crate) fn spell(r: Ratio<i64>) -> String {
+pub fn spell(r: Ratio<i64>) -> String {
     let sign = if *r.numer() < 0 { "-" } else { "" };
     let factor = match r.numer().unsigned_abs() {
         0 => return "0".to_owned(),

@@ -78,7 +78,7 @@ impl Beyond {
 
     /// Leaves out what is of joints and rows from `row` on. What moves the others stays: readings are those of
     /// the whole arm.
-    pub(crate) fn truncate(&mut self, row: usize) {
+    pub fn truncate(&mut self, row: usize) {
         self.moves.retain(|each| match each {
             Move::Joint(joint, Law::Coupling(other, _)) => joint.max(other) < &row,
             Move::Joint(joint, _) => *joint < row,

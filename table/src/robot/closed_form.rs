@@ -168,7 +168,7 @@ impl ClosedForm {
     }
 
     /// Whether it is one of a spherical wrist, or of three parallel axes, of six joints that turn.
-    pub(crate) fn is_of_six(self) -> bool {
+    pub fn is_of_six(self) -> bool {
         match self.family {
             Family::Wrist { behind, .. } => behind == 3,
             Family::ThreeParallel { behind, .. } => behind == 2,
