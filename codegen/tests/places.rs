@@ -16,7 +16,8 @@ struct Source {
 
 fn sources() -> Vec<Source> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the workspace's folder");
-    let mut folders: Vec<PathBuf> = vec![root.join("codegen/src"), root.join("table/src"), root.join("kernels/src")];
+    let mut folders: Vec<PathBuf> =
+        vec![root.join("codegen/src"), root.join("table/src"), root.join("kernels/src")];
     let mut found = Vec::new();
     while let Some(folder) = folders.pop() {
         for entry in fs::read_dir(folder).expect("a folder of sources") {

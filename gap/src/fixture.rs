@@ -1,9 +1,9 @@
 //! Small arms and rows that the tests of this crate share.
 
 use nalgebra::{Isometry3, Vector3, Vector6};
-use stiffarm_table::robot::Robot;
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::{Arm, Beam, Convention, Joint};
+use stiffarm_table::robot::Robot;
 
 use crate::effects::{Catalogue, Known, Spot};
 use crate::measurement::{Kind, Layout, Measurements, Row};

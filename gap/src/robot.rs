@@ -3,9 +3,9 @@
 use core::f64::consts::PI;
 
 use nalgebra::{Isometry3, Matrix3, Translation3, UnitQuaternion, Vector3};
-use stiffarm_table::robot::{self, Angle, Frame, Robot, Value};
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::{Arm, Beam, Drive, Joint};
+use stiffarm_table::robot::{self, Angle, Frame, Robot, Value};
 
 use crate::measurement::{Body, Layout, Marker, Payloads};
 

@@ -1,7 +1,6 @@
 //! One number, one model: the gap that a diagnosis announces, what its model leaves on the same
 //! rows, and what the robot that it writes leaves there.
 
-use stiffarm_table::robot::Robot;
 use stiffarm_gap::corrected::{corrected, folded};
 use stiffarm_gap::diagnose::{Diagnosed, Nuisance};
 use stiffarm_gap::effects::Catalogue;
@@ -11,6 +10,7 @@ use stiffarm_gap::plant::design::{Design, Shape};
 use stiffarm_gap::plant::{Frames, Noise, Plant, Truth};
 use stiffarm_gap::{Measurements, Options, diagnose_with};
 use stiffarm_kernels::generic::Arm;
+use stiffarm_table::robot::Robot;
 
 /// Six joints, three of them parallel; springs where a real arm has them.
 const FILE: &str = r#"

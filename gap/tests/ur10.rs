@@ -7,11 +7,11 @@
 
 use std::path::PathBuf;
 
-use stiffarm_table::robot::Robot;
 use stiffarm_gap::diagnose::Nuisance;
 use stiffarm_gap::gap::Statistics;
 use stiffarm_gap::{Measurements, Options, diagnose_with};
 use stiffarm_kernels::generic::Arm;
+use stiffarm_table::robot::Robot;
 
 const MM: f64 = 1e-3;
 

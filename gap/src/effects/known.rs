@@ -1,8 +1,8 @@
 //! What a robot file says of the arm beyond its table: the `[[effect]]` tables as the catalogue
 //! understands them.
 
-use stiffarm_table::robot::{self, Effect as Table, Entry, Quantity as Given};
 use stiffarm_kernels::generic::Arm;
+use stiffarm_table::robot::{self, Effect as Table, Entry, Quantity as Given};
 
 use super::{AtRest, Catalogue, Depends, Forms, MOST_ORDERS, Parameter, Place, Quantity, Spot};
 use crate::io::nearest;
@@ -40,7 +40,7 @@ pub struct KnownError {
 }
 
 impl KnownError {
-    pub fn new(at: &robot::Spot, message: String, help: Option<String>) -> KnownError {
+    pub(crate) fn new(at: &robot::Spot, message: String, help: Option<String>) -> KnownError {
         KnownError { at: at.clone(), message, help }
     }
 

@@ -1,9 +1,9 @@
 //! The robot file into which findings are put: its own entries, and how they are written.
 
 use nalgebra::Isometry3;
+use stiffarm_kernels::generic;
 use stiffarm_table::number::Number;
 use stiffarm_table::robot::{Angle, Frame, Joint, Marker, Robot, Value};
-use stiffarm_kernels::generic;
 
 use super::{Known, Place};
 

@@ -4,8 +4,8 @@
 //! entry holds into `[[effect]]` tables, which a later diagnosis of a log takes as known.
 
 use nalgebra::{DMatrix, DVector};
-use stiffarm_table::robot::Robot;
 use stiffarm_kernels::generic::Arm;
+use stiffarm_table::robot::Robot;
 
 use super::bodies::{bodies, moments};
 use super::known;

@@ -14,9 +14,9 @@ mod rows;
 mod search;
 mod words;
 
+use stiffarm_kernels::generic::Arm;
 use stiffarm_table::number::Number;
 use stiffarm_table::robot::{Angle, Convention, Joint, Robot, Value};
-use stiffarm_kernels::generic::Arm;
 
 use crate::diagnose::{Nuisance, Options};
 use crate::doubts::frames::Displaced;

@@ -1,10 +1,10 @@
 //! Robot files with `[[effect]]` tables, as the catalogue understands them.
 
 use proptest::prelude::*;
-use stiffarm_table::robot::Robot;
 use stiffarm_draws::texts::{answered, mutated};
 use stiffarm_gap::effects::{Catalogue, Known};
 use stiffarm_gap::robot::{arm, layout};
+use stiffarm_table::robot::Robot;
 
 const FILE: &str = r#"name = "arm"
 convention = "standard"

@@ -2,12 +2,12 @@
 
 use proptest::prelude::*;
 use proptest::sample::{Index, select};
-use stiffarm_table::robot::Motion;
 use stiffarm_draws::texts::{PIECES_OF_TABLES, answered, mutated};
 use stiffarm_gap::Measurements;
 use stiffarm_gap::io::{MOST_MISTAKES, Map, Mistake, ReadError};
 use stiffarm_gap::measurement::{Layout, Marker};
 use stiffarm_gap::readings::{By, Sheet, import};
+use stiffarm_table::robot::Motion;
 
 /// Every kind of column, comment, line end and quotes.
 const VALID: &str = "# a file\r\n\

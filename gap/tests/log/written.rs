@@ -2,11 +2,11 @@
 //! ask is what the diagnosis predicts, on every row. Kernels are compiled of the same file, and are held against
 //! this textbook elsewhere (`tests/parity`).
 
-use stiffarm_table::robot::Robot;
 use stiffarm_gap::log::corrected::{Corrected, corrected};
 use stiffarm_gap::log::{Log, LogDiagnosis, LogOptions, Model, Signal, diagnosed};
 use stiffarm_gap::rng::{Rng, Stream};
 use stiffarm_gap::signal::Signals;
+use stiffarm_table::robot::Robot;
 
 use super::plant::{self, Path, rigid};
 

@@ -48,6 +48,7 @@ impl Located {
         Located::new(path, text, problem)
     }
 
+    /// A mistake where it stands.
     pub fn new(path: &str, text: &str, problem: Problem<Range<usize>>) -> Self {
         let end = text.len();
         let start = floor_boundary(text, problem.at.start.min(end));
@@ -120,7 +121,7 @@ fn floor_boundary(text: &str, at: usize) -> usize {
 }
 
 impl FileError {
-    pub fn new(path: &str, text: &str, report: Report<Range<usize>>) -> Self {
+    pub(crate) fn new(path: &str, text: &str, report: Report<Range<usize>>) -> Self {
         FileError {
             path: path.to_owned(),
             text: text.to_owned(),

@@ -38,7 +38,7 @@ pub(crate) struct Thing {
 
 /// An arm and its measurements.
 #[derive(Clone)]
-pub struct Problem<'a> {
+pub(crate) struct Problem<'a> {
     pub(crate) arm: &'a Arm,
     pub(crate) data: &'a Measurements,
     pub(crate) moments: Moments<'a>,
@@ -90,7 +90,7 @@ pub struct Problem<'a> {
 }
 
 impl<'a> Problem<'a> {
-    pub fn new(
+    pub(crate) fn new(
         arm: &'a Arm,
         data: &'a Measurements,
         options: &Options,
@@ -261,7 +261,7 @@ impl<'a> Problem<'a> {
     }
 
     /// How far a gap is, by what is measured first: m, or rad where no position is.
-    pub fn size(&self, gap: &Vector6<f64>) -> f64 {
+    pub(crate) fn size(&self, gap: &Vector6<f64>) -> f64 {
         gap.fixed_rows::<3>(self.first()).norm()
     }
 

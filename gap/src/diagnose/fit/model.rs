@@ -52,7 +52,7 @@ pub(crate) struct Model {
     /// Where the base stands in each measuring frame.
     pub(crate) bases: Vec<Isometry3<f64>>,
     /// Whose axes loads and gravity are told in.
-    pub axes: Axes,
+    pub(crate) axes: Axes,
     /// Where the unknown markers are on the tool, m.
     pub(crate) markers: Vec<Vector3<f64>>,
     /// The unknown things of the bench.

@@ -16,7 +16,7 @@ use crate::infer::constants::LOOSE;
 pub(crate) struct Candidate {
     pub(crate) source: Source,
     /// Number of parameters.
-    pub size: usize,
+    pub(crate) size: usize,
     /// Least physical values of what is added.
     pub(crate) least: Vec<f64>,
     /// Inverse of the standard deviation to which each is held; 0 where any value is as good.

@@ -41,7 +41,7 @@ pub(crate) struct Gathered {
 
 /// What is gathered.
 pub(crate) struct Wanted<'w> {
-    pub problem: &'w Problem<'w>,
+    pub(crate) problem: &'w Problem<'w>,
     pub(crate) fit: &'w Fit,
     /// Candidates whose columns stand beside the model's.
     pub(crate) along: &'w [Candidate],
@@ -49,7 +49,7 @@ pub(crate) struct Wanted<'w> {
 }
 
 impl Gathered {
-    pub fn new(wanted: &Wanted<'_>, folds: &Folds, weights: &Vector6<f64>) -> Self {
+    pub(crate) fn new(wanted: &Wanted<'_>, folds: &Folds, weights: &Vector6<f64>) -> Self {
         let problem = wanted.problem;
         let shared = !problem.data.kind.is_difference();
         let layout = Layout::of(wanted.candidates, shared);

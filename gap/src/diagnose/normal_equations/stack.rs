@@ -39,7 +39,7 @@ pub(crate) struct Stack<'m> {
 }
 
 impl<'m> Stack<'m> {
-    pub fn new(
+    pub(crate) fn new(
         layout: &Layout,
         k: usize,
         rows: &[Seen],

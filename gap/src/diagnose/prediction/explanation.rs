@@ -45,7 +45,7 @@ pub struct Prediction {
 
 impl Explanation {
     /// The models before and after, and the spread of all that the one after has fitted.
-    pub fn new(
+    pub(crate) fn new(
         problem: &Problem<'_>,
         [before, after]: [Model; 2],
         spread: Spread,

@@ -39,7 +39,7 @@ const SETTLED: f64 = 1e-3;
 /// Everything that a search works with.
 #[derive(Clone, Copy)]
 pub(crate) struct Search<'s, 'p> {
-    pub problem: &'s Problem<'p>,
+    pub(crate) problem: &'s Problem<'p>,
     pub(crate) folds: &'s Folds,
     pub(crate) candidates: &'s [Candidate],
     pub(crate) options: &'s Options,

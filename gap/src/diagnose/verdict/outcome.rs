@@ -50,7 +50,7 @@ pub(crate) struct Held<'h> {
 }
 
 impl<'h> Held<'h> {
-    pub fn new(search: &Search<'h, 'h>, now: &'h Explained) -> Self {
+    pub(crate) fn new(search: &Search<'h, 'h>, now: &'h Explained) -> Self {
         let (problem, folds, fit) = (search.problem, search.folds, &now.fit);
         let mut owner = vec![None; Model::nuisances(problem)];
         for (index, found) in fit.model.found.iter().enumerate() {

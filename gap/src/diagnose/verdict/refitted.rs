@@ -13,7 +13,7 @@ use crate::parallel;
 pub(crate) struct Refitted(DMatrix<f64>);
 
 impl Refitted {
-    pub fn new(held: &Held<'_>, groups: &[Group], seed: u64) -> Self {
+    pub(crate) fn new(held: &Held<'_>, groups: &[Group], seed: u64) -> Self {
         let steps: Vec<Vec<usize>> = (0..=groups.len())
             .map(|count| held.kept(&groups[..count].iter().collect::<Vec<_>>()))
             .collect();

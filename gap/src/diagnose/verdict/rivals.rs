@@ -18,7 +18,7 @@ pub(crate) struct Rivals {
     /// How often it is found again on half of the poses.
     pub(crate) stability: f64,
     /// The rival that is hardest to tell from the finding, if one is not told from it.
-    pub nearest: Option<(Candidate, Vec<f64>)>,
+    pub(crate) nearest: Option<(Candidate, Vec<f64>)>,
 }
 
 impl Search<'_, '_> {

@@ -1,7 +1,7 @@
 //! What a robot file says of the arm in motion beyond its table, as the plant has it.
 
-use stiffarm_table::robot::{Effect, Quantity};
 use stiffarm_kernels::generic::Arm;
+use stiffarm_table::robot::{Effect, Quantity};
 
 use super::truth::MotionTruth;
 use super::{Law, Logged};
