@@ -67,8 +67,7 @@ impl Located {
     }
 
     /// A remark on a file as a whole.
-    #[cfg(all(feature = "macro", not(feature = "urdf")))]
-    pub(crate) fn on_file(path: &str, text: &str, message: &str) -> Self {
+    pub fn on_file(path: &str, text: &str, message: &str) -> Self {
         Located::new(path, text, Problem::new(0..0, message))
     }
 
