@@ -2,7 +2,7 @@
 //!
 //! 1. [`read`]: text into runs of samples, damaged rows left out and named.
 //!    [`readings`]: what is wrong with them, taken out.
-//! 2. [`signal`]: even samples, one filter, rates.
+//! 2. [`signal`](crate::signal): even samples, one filter, rates.
 //! 3. [`scene`]: rows, a joint at a time each; [`effects`]: what each effect does to them; what rigid links ask of
 //!    the drives, by their [base parameters](stiffarm_kernels::generic::BaseParameter), is fitted along.
 //! 4. [`search`]: which effects, by blocks of time that no fit has seen.
