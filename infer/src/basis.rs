@@ -54,7 +54,7 @@ impl Basis {
         Self { t }
     }
 
-    /// Of the unknowns in their order: those of which no more than [`APART`] of the squared size stands
+    /// Of the unknowns in their order: those of which no more than a billionth of the squared size stands
     /// apart from those before them stay 0.
     pub fn ordered(normal: &DMatrix<f64>) -> Self {
         let k = normal.nrows();

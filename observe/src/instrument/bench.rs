@@ -230,7 +230,7 @@ impl Bench {
     /// another file's.
     ///
     /// # Errors
-    /// [`Mistake`]: a pair of which the file has one point alone; as of one camera.
+    /// [`Mistake`]: a pair of which the file has one point alone; a row whose camera or corner nobody knows.
     pub fn set_up(&self, data: &mut Measurements) -> Result<(), Mistake> {
         data.rows.iter_mut().for_each(|row| self.known(row));
         self.look(data)?;
