@@ -8,7 +8,8 @@
 //! [`pruned`] by the same.
 //!
 //! Least squares are solved by a [`Basis`], with bounds by [`Squares`]; `autocorrelation` says how long errors
-//! last, `resample` how far a shrink scatters when blocks are drawn again.
+//! last, `resample` how far a shrink scatters when blocks are drawn again. [`rng`] draws the same numbers from a seed in
+//! every version, [`parallel`] works on all cores with results in their order.
 
 mod autocorrelation;
 mod basis;
