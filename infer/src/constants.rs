@@ -31,6 +31,3 @@ pub const OWN: f64 = 0.01;
 
 /// One term is exchanged for another only for this much more evidence: a factor of about five.
 pub const EXCHANGE: f64 = 3.0;
-
-/// Up to this much evidence the blocks must agree on it: where few of them carry it, chance may.
-pub const WEAK: f64 = 30.0;

@@ -5,12 +5,13 @@
 //! **Out:** a [`Screen`] that gives the [`Score`] of each candidate beside the model, the squares that it
 //! leaves on blocks that no fit has seen, and each block's share in it, whose signs [`SignFlips`] set at random.
 //! Candidates are [`Ranked`] by the evidence that they add, and the terms of a model of any [`Observations`] are
-//! [`pruned`] by the same.
+//! [`pruned`] by the same. [`Asked`] holds the questions by which a candidate is found, and a finding kept.
 //!
 //! Least squares are solved by a [`Basis`], with bounds by [`Squares`]; `autocorrelation` says how long errors
 //! last, `resample` how far a shrink scatters when blocks are drawn again. [`rng`] draws the same numbers from a seed in
 //! every version, [`parallel`] works on all cores with results in their order.
 
+mod asked;
 mod autocorrelation;
 mod basis;
 mod bounded;
@@ -29,6 +30,7 @@ mod screen;
 mod select;
 mod signs;
 
+pub use asked::{Answer, Asked, Doubt, worst};
 pub use autocorrelation::{Autoregression, correlation_time};
 pub use basis::{Basis, RANK, principal};
 pub use bounded::Squares;

@@ -189,7 +189,7 @@ impl<C: Columns> Screen<'_, C> {
         for fold in trained {
             let fit = fold.with(self, candidate);
             sum.white += fit.left(&self.folds[fold.fold]);
-            sum.plain += fit.left(&self.plain[fold.fold]);
+            sum.plain += self.plain.get(fold.fold).map_or(0.0, |plain| fit.left(plain));
         }
         HeldOut { white: sum.white.max(0.0), plain: sum.plain.max(0.0) }
     }

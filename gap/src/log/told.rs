@@ -167,7 +167,7 @@ impl Told<'_> {
                     .collect(),
                 share: held_out.share(left[0]),
                 held_out,
-                p_value: judged.p_value,
+                p_value: judged.doubt.p_value,
                 stability: None,
                 alternatives: judged.rivals.iter().map(|rival| self.alternative(rival)).collect(),
                 to_separate: (!judged.rivals.is_empty())

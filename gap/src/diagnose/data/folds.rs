@@ -74,13 +74,6 @@ impl Folds {
     pub(crate) fn of_row(&self, row: usize) -> usize {
         self.of_block[self.block_of_row[row]]
     }
-
-    /// Sums of squares of each block, of one size per row.
-    pub(crate) fn per_block(&self, sizes: &[f64]) -> Vec<f64> {
-        let mut sums = vec![0.0; self.blocks()];
-        self.block_of_row.iter().zip(sizes).for_each(|(block, size)| sums[*block] += size * size);
-        sums
-    }
 }
 
 /// The block of each pose, of as many blocks as are asked for, or a few more: none is of two sessions.

@@ -10,7 +10,7 @@ use crate::diagnose::options::{DiagnoseError, Options};
 use crate::diagnose::progress::Stage;
 use crate::effects::{Effect, Forms, Spot};
 use crate::infer::constants::SIGNIFICANT;
-use crate::infer::{Observations, Ranked, SignFlips, pruned};
+use crate::infer::{Asked, Observations, Ranked, pruned};
 use nalgebra::Vector6;
 use std::sync::{Arc, OnceLock};
 
@@ -138,72 +138,51 @@ impl Search<'_, '_> {
         screen.ranked(self.scale(now))
     }
 
-    /// The model with the best candidate added, if it is significant.
+    /// All candidates in place of some effects of the model (ascending).
+    pub(crate) fn asked(&self, now: &Explained, without: &[usize]) -> Asked<'_, Candidate> {
+        let screen = self.screen(now, Kept { without, ..Kept::default() });
+        Asked::new(screen, self.scale(now), self.options.seed)
+    }
+
+    /// The model with the best candidate added, if it is found.
     fn added(&self, now: &Explained) -> Result<Option<Fit>, DiagnoseError> {
-        let screen = self.screen(now, Kept::default());
-        let scale = self.scale(now);
-        let ranked = self.ranked(&screen, now);
-        let trained = screen.trained();
-        let before = screen.held_out(&trained, None);
-        let tried: Vec<usize> = ranked.iter().map(|r| r.candidate).collect();
+        let asked = self.asked(now, &[]);
         let (resolved, found) = (self.resolved(), &now.fit.model.found);
-        let told =
-            ranked.iter().filter(|r| screen.candidates[r.candidate].is_apart(&resolved, found));
-        let variance = scale.variance(screen.left(), screen.basis.rank());
-        let (mut flips, mut tries) = (None, 0);
+        let candidate = |one: &Ranked| &self.candidates[one.candidate];
+        let told = asked.ranked.iter().filter(|one| candidate(one).is_apart(&resolved, found));
+        let is_found = |one: &&Ranked| asked.is_found(one, SIGNIFICANT);
         let mut lingering: Vec<&Candidate> = Vec::new();
-        for one in told.clone() {
-            let candidate = &screen.candidates[one.candidate];
+        let mut tries = 0;
+        for one in told.clone().filter(is_found) {
             // What errors that linger explain stands in the way of no other.
-            if lingering.iter().any(|other| other.is_same(candidate)) {
+            if lingering.iter().any(|other| other.is_same(candidate(one))) {
                 continue;
             }
             if tries == MOST_TRIED {
                 break;
             }
-            tries += 1;
-            let p_value =
-                scale.p_value(&one.score, screen.left(), screen.basis.rank(), tried.len());
-            let shrinks = screen.held_out(&trained, Some(one.candidate)).white < before.white;
-            if p_value > SIGNIFICANT || !shrinks || one.gain <= 0.0 {
-                continue;
-            }
-            let flips = flips.get_or_insert_with(|| {
-                SignFlips::new(&screen, &tried, variance, self.options.seed)
-            });
-            if flips.p_value(&one.score) > SIGNIFICANT {
-                continue;
-            }
-            let refined = self.refined(now, &[], one, &screen);
-            let mut added: Vec<Fitted> = refined.into_iter().collect();
-            let significant = |r: &&Ranked| {
-                let p_value =
-                    scale.p_value(&r.score, screen.left(), screen.basis.rank(), tried.len());
-                p_value <= SIGNIFICANT
-                    && r.gain > 0.0
-                    && flips.p_value(&r.score) <= SIGNIFICANT
-                    && screen.held_out(&trained, Some(r.candidate)).white < before.white
-            };
-            let periodic = |r: &&Ranked| screen.candidates[r.candidate].forms_are_orders();
-            if periodic(&one) {
-                for other in told.clone().filter(periodic) {
+            let mut added: Vec<Fitted> =
+                self.refined(now, &[], one, &asked.screen).into_iter().collect();
+            let is_periodic = |one: &&Ranked| candidate(one).forms_are_orders();
+            if is_periodic(&one) {
+                for other in told.clone().filter(is_periodic) {
                     if added.len() > MOST_ORDERS {
                         break;
                     }
-                    if screen.candidates[other.candidate].is_apart(&resolved, &added)
-                        && significant(&other)
-                    {
-                        added.extend(self.refined(now, &[], other, &screen));
+                    if candidate(other).is_apart(&resolved, &added) && is_found(&other) {
+                        added.extend(self.refined(now, &[], other, &asked.screen));
                     }
                 }
             }
             let below = self.left(now) - KEPT * one.score.drop;
-            let Some(fit) = self.with(now, &[], added, below)? else { continue };
+            let Some(fit) = self.with(now, &[], added, below)? else {
+                tries += 1;
+                continue;
+            };
             if !self.lingers(now, &fit, one)? {
                 return Ok(Some(fit));
             }
-            lingering.push(candidate);
-            tries -= 1;
+            lingering.push(candidate(one));
         }
         Ok(None)
     }

@@ -3,8 +3,9 @@
 
 use nalgebra::Vector6;
 
-use super::outcome::Held;
+use super::outcome::{Group, Held, groups};
 use super::refitted::Refitted;
+use super::rivals::Rivals;
 use crate::diagnose::options::DiagnoseError;
 use crate::diagnose::progress::Stage;
 use crate::diagnose::report::{
@@ -12,12 +13,9 @@ use crate::diagnose::report::{
 };
 use crate::diagnose::search::{Explained, Search};
 use crate::gap::Statistics;
-use crate::infer::Observations;
 use crate::infer::constants::SIGNIFICANT;
+use crate::infer::{Observations, worst};
 use crate::shrink::Shrink;
-
-/// Findings that are taken out, one after the other.
-const MOST_OUT: usize = 8;
 
 /// What a diagnosis says.
 pub(crate) struct Judged {
@@ -43,57 +41,50 @@ impl Search<'_, '_> {
         before: &[Vector6<f64>],
         is_there: bool,
     ) -> Result<(Explained, Judged), DiagnoseError> {
-        let mut out = 0;
         now = self.whole(now)?;
-        loop {
-            let (fitted, shrinking) = self.shrinking(now)?;
-            now = fitted;
-            let groups = &shrinking.groups;
+        let (groups, rivals) = loop {
+            let groups = groups(self.problem, &now.fit.model);
             (self.progress)(Stage::Judge(groups.len()));
-            let after = if groups.is_empty() { before } else { &shrinking.after };
-            let size = Statistics::of(self.problem.kept(after));
-            let positions = self.problem.measures_position();
-            let main = if positions { size.position_rms } else { size.rotation_rms };
-            let unexplained =
-                if is_there { self.remainder(start, &now, main)? } else { Unexplained::default() };
-            let refitted = Refitted::new(&Held::new(self, &now), groups, self.options.seed);
-            let at_noise = !unexplained.present;
-            let sizes: Vec<f64> = before.iter().map(|gap| self.problem.size(gap)).collect();
-            let mut findings = self.findings(&now, &shrinking, &sizes, &refitted, at_noise)?;
-            let worst = (0..findings.len())
-                .max_by(|a, b| findings[*a].p_value.total_cmp(&findings[*b].p_value))
-                .filter(|k| {
-                    findings[*k].p_value > SIGNIFICANT && out < MOST_OUT && !self.stopped()
-                });
-            let Some(worst) = worst else {
-                let certainty = self.certainty(&now);
-                let values = self.intervals(&now, &certainty);
-                for (finding, group) in findings.iter_mut().zip(groups) {
-                    finding.parameters = group.iter().flat_map(|k| values[*k].clone()).collect();
-                }
-                let last: Vec<f64> = after.iter().map(|gap| self.problem.size(gap)).collect();
-                let shrink = self.shrink(&sizes, &last, refitted.spread(0, groups.len()));
-                let is_left = is_there && self.problem.is_there(after);
-                let residual = is_left.then(|| self.residual(&now, before, after));
-                let observability = self.observability(&now.fit, &certainty);
-                let after = if groups.is_empty() { before.to_vec() } else { shrinking.after };
-                let (bench, pairs) = (self.bench(&now, &certainty), self.pairs_apart(&now));
-                let judged = Judged {
-                    findings,
-                    after,
-                    shrink,
-                    unexplained,
-                    residual,
-                    observability,
-                    bench,
-                    pairs,
-                };
-                return Ok((now, judged));
+            let rivals = self.all_rivals(&now, &groups)?;
+            let doubts = rivals.iter().map(|rivals| rivals.doubt).enumerate();
+            let doubted = doubts.filter(|(_, doubt)| doubt.is_idle(SIGNIFICANT));
+            let Some(worst) = worst(doubted).filter(|_| !self.stopped()) else {
+                break (groups, rivals);
             };
-            let mut group = groups[worst].clone();
-            group.sort_unstable();
-            now = self.fitted_without(now, &group)?;
-            out += 1;
+            let mut out = groups[worst].clone();
+            out.sort_unstable();
+            now = self.fitted_without(now, &out)?;
+        };
+        let held = Held::new(self, &now);
+        let shrinking = held.ordered(&groups);
+        let after = if groups.is_empty() { before } else { &shrinking.after };
+        let size = Statistics::of(self.problem.kept(after));
+        let positions = self.problem.measures_position();
+        let main = if positions { size.position_rms } else { size.rotation_rms };
+        let unexplained =
+            if is_there { self.remainder(start, &now, main)? } else { Unexplained::default() };
+        let mut rivals: Vec<Option<Rivals>> = rivals.into_iter().map(Some).collect();
+        let (groups, rivals): (Vec<Group>, Vec<Rivals>) = (shrinking.order.iter())
+            .filter_map(|k| Some((groups[*k].clone(), rivals[*k].take()?)))
+            .unzip();
+        let refitted = Refitted::new(&held, &groups, self.options.seed);
+        let sizes: Vec<f64> = before.iter().map(|gap| self.problem.size(gap)).collect();
+        let certainty = self.certainty(&now);
+        let values = self.intervals(&now, &certainty);
+        let mut findings = self.findings(&now, &groups, rivals, &sizes, &shrinking, &refitted);
+        for (finding, group) in findings.iter_mut().zip(&groups) {
+            finding.parameters = group.iter().flat_map(|k| values[*k].clone()).collect();
         }
+        let last: Vec<f64> = after.iter().map(|gap| self.problem.size(gap)).collect();
+        let shrink = self.shrink(&sizes, &last, refitted.spread(0, groups.len()));
+        let is_left = is_there && self.problem.is_there(after);
+        let residual = is_left.then(|| self.residual(&now, before, after));
+        let observability = self.observability(&now.fit, &certainty);
+        let (bench, pairs) = (self.bench(&now, &certainty), self.pairs_apart(&now));
+        let after = after.to_vec();
+        let judged =
+            Judged { findings, after, shrink, unexplained, residual, observability, bench, pairs };
+        drop(held);
+        Ok((now, judged))
     }
 }

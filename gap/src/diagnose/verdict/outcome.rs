@@ -4,10 +4,9 @@ use nalgebra::{Cholesky, DMatrix, DVector, Dyn, Vector6};
 
 use crate::diagnose::data::{Folds, Problem};
 use crate::diagnose::fit::{Bond, Fit, Model, block};
-use crate::diagnose::options::DiagnoseError;
 use crate::diagnose::search::{Explained, Search};
 use crate::effects::At;
-use crate::infer::{Basis, Observations, Products, RANK, ordered};
+use crate::infer::{Basis, Products, RANK, ordered};
 use crate::parallel;
 
 /// The effects of one finding: all forms of one effect at one place are one.
@@ -19,11 +18,10 @@ const CHUNK: usize = 64;
 /// Findings in the order in which they shrink the held-out gap most, and what is left of it before the
 /// first and after each.
 pub(crate) struct Shrinking {
-    pub(crate) groups: Vec<Group>,
+    /// Of the groups as they were given.
+    pub(crate) order: Vec<usize>,
     /// Steps × rows: how far each row is off.
     sizes: DMatrix<f64>,
-    /// Weighted.
-    squares: DVector<f64>,
     /// Gap of each row with all of them.
     pub(crate) after: Vec<Vector6<f64>>,
 }
@@ -120,52 +118,46 @@ impl<'h> Held<'h> {
         each.map(|(own, values)| own.left(&values.into_owned())).sum()
     }
 
-    /// What some groups leave of each row: `values` are those before the first and after each.
-    fn shrinking(
-        &self,
-        groups: Vec<Group>,
-        values: &[DMatrix<f64>],
-        weights: &Vector6<f64>,
-    ) -> Shrinking {
+    /// Weighted squares that some groups leave of the held-out rows.
+    pub(super) fn left(&self, groups: &[&Group]) -> f64 {
+        self.squares(&self.values(groups))
+    }
+
+    /// What is left of each row: `values` are those before the first group and after each of the `order`.
+    fn shrinking(&self, order: Vec<usize>, values: &[DMatrix<f64>]) -> Shrinking {
         let own = DVector::from_vec(self.fit.model.values(self.problem));
         let rows = self.problem.data.rows.len();
         let mut sizes = DMatrix::zeros(values.len(), rows);
         let mut after = vec![Vector6::zeros(); rows];
-        let of_row = |row: usize, sizes: &mut [f64], squares: &mut DVector<f64>| {
+        let of_row = |row: usize, sizes: &mut [f64]| {
             let block = block(self.problem, self.fit, row, &self.problem.mask);
             let gap = self.fit.predicted.gaps[row] + &block * &own;
-            let (fold, weights) = (self.folds.of_row(row), self.problem.weights(row, weights));
+            let fold = self.folds.of_row(row);
             let mut last = gap;
-            for (step, values) in values.iter().enumerate() {
+            for (size, values) in sizes.iter_mut().zip(values) {
                 last = gap - &block * values.column(fold);
-                sizes[step] = self.problem.size(&last);
-                squares[step] += last.component_mul(&weights).norm_squared();
+                *size = self.problem.size(&last);
             }
             last
         };
         let chunks = sizes.as_mut_slice().chunks_mut(CHUNK * values.len());
-        let chunks = chunks.zip(after.chunks_mut(CHUNK)).enumerate();
-        let mut parts: Vec<_> =
-            chunks.map(|(k, own)| (k, own, DVector::zeros(values.len()))).collect();
-        parallel::change(&mut parts, &|(k, (sizes, after), squares)| {
+        let mut parts: Vec<_> = chunks.zip(after.chunks_mut(CHUNK)).enumerate().collect();
+        parallel::change(&mut parts, &|(k, (sizes, after))| {
             let each = after.iter_mut().zip(sizes.chunks_exact_mut(values.len())).enumerate();
-            each.for_each(|(row, (after, sizes))| {
-                *after = of_row(CHUNK * *k + row, sizes, squares);
-            });
+            each.for_each(|(row, (after, sizes))| *after = of_row(CHUNK * *k + row, sizes));
         });
-        let squares = parts.iter().map(|(_, _, squares)| squares).sum();
-        Shrinking { groups, sizes, squares, after }
+        Shrinking { order, sizes, after }
     }
 
     /// The held-out gaps without any effect that was found.
     pub(crate) fn without_findings(&self) -> Vec<Vector6<f64>> {
-        self.shrinking(Vec::new(), &[self.values(&[])], &self.problem.mask).after
+        self.shrinking(Vec::new(), &[self.values(&[])]).after
     }
 
     /// The groups in the order in which they shrink the held-out gap most, and what is left before the
-    /// first and after each, its squares by `weights`. Beside nothing that holds it to what makers tolerate, the whole
+    /// first and after each. Beside nothing that holds it to what makers tolerate, the whole
     /// table would take up a length or zero that is off by far more: it comes after those.
-    pub(crate) fn ordered(&self, groups: &[Group], weights: &Vector6<f64>) -> Shrinking {
+    pub(crate) fn ordered(&self, groups: &[Group]) -> Shrinking {
         let effect = |k: usize| self.fit.model.found[groups[k][0]].effect;
         let is_of_table = |k: usize| {
             effect(k).is_geometry() && matches!(effect(k).facts().at, At::Joints | At::Links)
@@ -184,8 +176,7 @@ impl<'h> Held<'h> {
         let (order, after): (Vec<usize>, Vec<DMatrix<f64>>) =
             each.into_iter().map(|(k, (_, values))| (k, values)).unzip();
         let values: Vec<_> = std::iter::once(self.values(&[])).chain(after).collect();
-        let done = order.into_iter().map(|k| groups[k].clone()).collect();
-        self.shrinking(done, &values, weights)
+        self.shrinking(order, &values)
     }
 }
 
@@ -194,26 +185,6 @@ impl<'h> Held<'h> {
 fn is_decided(root: &Cholesky<f64, Dyn>, matrix: &DMatrix<f64>) -> bool {
     let own = root.l_dirty().diagonal();
     own.iter().zip(matrix.diagonal().iter()).all(|(own, all)| own * own > RANK * all)
-}
-
-impl Search<'_, '_> {
-    /// The findings in order, as [`Held::ordered`]; those that do not shrink the held-out gap beside
-    /// all the others are taken out of the model.
-    pub(crate) fn shrinking(
-        &self,
-        mut now: Explained,
-    ) -> Result<(Explained, Shrinking), DiagnoseError> {
-        loop {
-            let groups = groups(self.problem, &now.fit.model);
-            let shrinking = Held::new(self, &now).ordered(&groups, &now.weights);
-            let Shrinking { groups, squares, .. } = &shrinking;
-            let idle = (0..groups.len()).rev().find(|&k| squares[k + 1] >= squares[k]);
-            let Some(idle) = idle.filter(|_| !self.stopped()) else { return Ok((now, shrinking)) };
-            let mut out = groups[idle].clone();
-            out.sort_unstable();
-            now = self.fitted_without(now, &out)?;
-        }
-    }
 }
 
 /// All forms of one effect at one place are one finding; what is fitted along is none.

@@ -9,7 +9,7 @@ use crate::diagnose::report::{Share, Unexplained};
 use crate::diagnose::search::{Explained, First, Search};
 use crate::effects::Place;
 use crate::infer::constants::UNEXPLAINED;
-use crate::infer::{Observations, SignFlips};
+use crate::infer::{Asked, Observations};
 
 /// Displacements of free form that are tried beside each other.
 const MOST_FORMS: usize = 6;
@@ -29,35 +29,13 @@ impl Search<'_, '_> {
         let probes = Candidate::probes(self.problem);
         let gathered = self.gather(now, &[], &probes);
         let screen = self.screen_of(now, &gathered, Kept::default(), &probes);
-        let scale = self.scale(now);
-        let fitted = screen.basis.rank();
-        let ranked = self.ranked(&screen, now);
-        let tried: Vec<usize> = ranked.iter().map(|r| r.candidate).collect();
-        let trained = screen.trained();
-        let before = screen.held_out(&trained, None).white;
+        let asked = Asked::new(screen, self.scale(now), self.options.seed);
         let mut places: BTreeMap<Place, f64> = BTreeMap::new();
         let mut about: BTreeMap<About, f64> = BTreeMap::new();
-        let mut significant = false;
-        let variance = scale.variance(screen.left(), fitted);
-        let mut flips = None;
-        for one in &ranked {
-            let Source::Probe(probe) = &screen.candidates[one.candidate].source else { continue };
-            let after = screen.held_out(&trained, Some(one.candidate)).white;
-            let share = 1.0 - after / before.max(f64::MIN_POSITIVE);
-            if share <= 0.0 {
-                continue;
-            }
-            let p_value = scale.p_value(&one.score, screen.left(), fitted, tried.len());
-            if p_value > UNEXPLAINED {
-                continue;
-            }
-            let flips = flips.get_or_insert_with(|| {
-                SignFlips::new(&screen, &tried, variance, self.options.seed)
-            });
-            if flips.p_value(&one.score) > UNEXPLAINED {
-                continue;
-            }
-            significant = true;
+        let found = asked.ranked.iter().filter(|one| asked.is_found(one, UNEXPLAINED));
+        for one in found {
+            let Source::Probe(probe) = &probes[one.candidate].source else { continue };
+            let share = 1.0 - asked.held_out(one.candidate).white / asked.before.white;
             let largest = |map: &mut f64| *map = map.max(share);
             largest(places.entry(probe.place).or_insert(0.0));
             largest(about.entry(probe.about).or_insert(0.0));
@@ -65,7 +43,7 @@ impl Search<'_, '_> {
         let gaps = self.problem.standard(&now.fit.predicted.gaps);
         let gaps = gaps.zip(&self.problem.fits).filter(|(_, fits)| **fits).map(|(gap, _)| gap);
         let parameters = now.fit.model.parameters(self.problem);
-        let present = now.noise.exceeded(gaps, parameters) || significant;
+        let present = now.noise.exceeded(gaps, parameters) || !places.is_empty();
         if !present {
             return Ok(Unexplained::default());
         }
@@ -99,7 +77,6 @@ impl Search<'_, '_> {
         let start = &start.with_states(self.problem)?;
         let mut all = self.candidates.to_vec();
         all.extend(Candidate::probes(self.problem));
-        let scale = self.scale(start);
         let mut along: Vec<Candidate> = Vec::new();
         let mut probes = Vec::new();
         let mut whole = None;
@@ -111,9 +88,6 @@ impl Search<'_, '_> {
             let whole = *whole.get_or_insert(left);
             let ranked = self.ranked(&screen, start);
             let Some(best) = ranked.first().filter(|best| best.gain > 0.0) else { break };
-            if scale.p_value(&best.score, left, screen.basis.rank(), ranked.len()) > UNEXPLAINED {
-                break;
-            }
             if let Source::Probe(probe) = &all[best.candidate].source {
                 probes.push((*probe, best.score.drop / whole));
             }

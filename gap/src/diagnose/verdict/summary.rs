@@ -4,11 +4,12 @@ use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
 use super::bootstrap::shrink;
 use super::certainty::Certainty;
-use super::outcome::Shrinking;
+use super::outcome::{Group, Shrinking};
 use super::refitted::Refitted;
+use super::rivals::Rivals;
 use crate::diagnose::data::{Problem, Thing};
 use crate::diagnose::fit::Model;
-use crate::diagnose::options::{DiagnoseError, Nuisance};
+use crate::diagnose::options::Nuisance;
 use crate::diagnose::report::{Cover, NuisanceReport};
 use crate::diagnose::search::{Explained, Search};
 use crate::gap::rms;
@@ -18,42 +19,41 @@ use crate::report::{Finding, HeldOutGap, Parameter};
 use crate::shrink::Shrink;
 
 impl Search<'_, '_> {
-    /// Each group with what it takes of the gap, and its rivals, still without its numbers. `before`
-    /// is how far the robot file as it is leaves each row.
+    /// Each group, in order, with what it takes of the gap and its rivals, still without its numbers. `before` is how
+    /// far the robot file as it is leaves each row.
     pub(crate) fn findings(
         &self,
         now: &Explained,
-        shrinking: &Shrinking,
+        groups: &[Group],
+        rivals: Vec<Rivals>,
         before: &[f64],
+        shrinking: &Shrinking,
         refitted: &Refitted,
-        at_noise: bool,
-    ) -> Result<Vec<Finding>, DiagnoseError> {
-        let mut findings = Vec::with_capacity(shrinking.groups.len());
+    ) -> Vec<Finding> {
         let mut last = before.to_vec();
         let whole = rms(&self.problem.kept(before).copied().collect::<Vec<_>>());
-        for (number, group) in shrinking.groups.iter().enumerate() {
+        let each = groups.iter().zip(rivals).enumerate().map(|(number, (group, rivals))| {
             let first = &now.fit.model.found[group[0]];
             let after = shrinking.sizes_after(number + 1);
-            let rivals = self.rivals(now, group, at_noise)?;
             let to_separate =
                 rivals.nearest.as_ref().map(|rival| self.separating(now, group, rival));
             let held_out = HeldOutGap::AtRest {
                 held_out: self.shrink(&last, &after, refitted.spread(number, number + 1)),
             };
-            findings.push(Finding {
+            last = after;
+            Finding {
                 effect: first.effect.identifier().into(),
                 place: first.spot.place.to_string(),
                 parameters: Vec::new(),
                 share: held_out.share(whole),
                 held_out,
-                p_value: rivals.p_value,
+                p_value: rivals.doubt.p_value,
                 stability: Some(rivals.stability),
                 alternatives: rivals.alternatives,
                 to_separate: Some(to_separate),
-            });
-            last = after;
-        }
-        Ok(findings)
+            }
+        });
+        each.collect()
     }
 
     /// From sizes of gaps to others of the same rows, the logarithm of whose ratio scatters by `spread`.

@@ -1,6 +1,6 @@
-//! What could be added to a model: its evidence, its held-out squares, and how likely chance is to do as well.
+//! What could be added to a model of a log.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 
 use super::blocks::Blocks;
 use super::dictionary::Entry;
@@ -8,34 +8,27 @@ use super::explained::Explained;
 use super::fit::Term;
 use super::normal_equations::Sums;
 use super::{LOOSE, Search};
-use crate::infer::{Basis, Columns, Observations, Products, Ranked, Screen, Signs, unit};
+use crate::infer::{self, Answer, Basis, Columns, Observations, Products, Screen};
 use crate::parallel;
-
-/// So many of the candidates that have most evidence are held out; the others have less.
-const HELD_OUT: usize = 24;
 
 /// What could be added to a model.
 pub struct Asked {
-    /// Squares that the model leaves of each block, held out, in the sizes.
-    pub squares: Vec<f64>,
+    /// Squares that the model leaves of the blocks, held out, in the sizes.
+    pub left: f64,
     /// All that were asked.
     pub candidates: Vec<Candidate>,
-    /// Of each the chance that something unrelated does as well.
-    pub p_values: Vec<f64>,
 }
 
 /// A term that could be added.
 pub struct Candidate {
     /// With the values it would have.
     pub term: Term,
-    /// Squares that are left with it, held out, of each block; without it where it was not held out.
-    pub squares: Vec<f64>,
+    /// What it says.
+    pub answer: Answer,
     /// Whether it says anything beside the model.
     pub seen: bool,
     /// By how much it makes the squares smaller that are fitted.
     pub drop: f64,
-    /// Twice the logarithm of its odds.
-    pub gain: f64,
 }
 
 /// An entry of the dictionary as a candidate.
@@ -129,10 +122,7 @@ impl<'s> Search<'s, '_> {
     /// Asks a fit for some of the offers, each about the values that do best.
     pub fn asked(&self, now: &Explained, divided: (&Blocks, &Sums), offers: &[usize]) -> Asked {
         let all = self.linear(offers);
-        let screen = self.screen_of(now, Some(divided), &all);
-        let trained = screen.trained();
-        let squares = screen.held_out_by_block(&trained, None);
-        let ranked = screen.ranked(self.scale(now));
+        let asked = self.asked_by_block(now, divided, &all);
         let mut from = 0;
         let of_offer = |entries: &[Linear<'_>]| {
             let own = from..from + entries.len();
@@ -142,45 +132,25 @@ impl<'s> Search<'s, '_> {
         let ranges: Vec<_> = all.chunk_by(|a, b| a.offer == b.offer).map(of_offer).collect();
         // Of the entries of an offer the best.
         let best = |range: &core::ops::Range<usize>| {
-            let ranked = ranked.iter().find(|one| range.contains(&one.candidate));
-            let (at, score, gain) = match ranked {
-                Some(Ranked { candidate, score, gain, .. }) => (*candidate, score.clone(), *gain),
-                None => (range.start, screen.score(range.start), f64::NEG_INFINITY),
+            let ranked = asked.ranked.iter().find(|one| range.contains(&one.candidate));
+            let (at, score, answer) = match ranked {
+                Some(one) => (one.candidate, one.score.clone(), asked.answer(one)),
+                None => (range.start, asked.screen.score(range.start), asked.silence()),
             };
             let term = self.term(&all[at], &score.values);
-            let (seen, drop) = (score.rank > 0, score.drop);
-            (at, Candidate { term, squares: squares.clone(), seen, drop, gain })
+            Candidate { term, answer, seen: score.rank > 0, drop: score.drop }
         };
-        let mut candidates: Vec<(usize, Candidate)> = parallel::each(&ranges, &best);
-        let mut gains: Vec<f64> = candidates.iter().map(|(_, c)| c.gain).collect();
-        gains.sort_by(|a, b| b.total_cmp(a));
-        let least = gains.get(HELD_OUT).copied().unwrap_or(f64::NEG_INFINITY);
-        parallel::change(&mut candidates, &|(at, candidate)| {
-            if candidate.gain > least {
-                candidate.squares = screen.held_out_by_block(&trained, Some(*at));
-            }
-        });
-        let p_values = p_values(&screen, &ranges, self.seed);
-        let candidates = candidates.into_iter().map(|(_, candidate)| candidate).collect();
-        Asked { squares, candidates, p_values }
+        Asked { left: asked.before.white, candidates: parallel::each(&ranges, &best) }
     }
-}
 
-/// Of each offer, whose entries stand in a range, the chance that something unrelated looks as good among as
-/// many. Each candidate's blocks are told so that their squares add up to one.
-fn p_values(
-    screen: &Screen<'_, Linear<'_>>,
-    ranges: &[core::ops::Range<usize>],
-    seed: u64,
-) -> Vec<f64> {
-    let left = screen.left_by_block();
-    let own = |c: usize| unit(&screen.shares(c, &left));
-    let shares: Vec<DMatrix<f64>> = parallel::map(screen.candidates.len(), &own);
-    let signs = Signs::new(screen.blocks.len(), seed);
-    let highest = signs.largest(&shares.iter().collect::<Vec<_>>());
-    let found = |range: &core::ops::Range<usize>| {
-        let own = shares[range.clone()].iter().map(|shares| shares.column_sum().norm_squared());
-        signs.p_value(&highest, own.fold(0.0, f64::max))
-    };
-    ranges.iter().map(found).collect()
+    /// The questions of some candidates beside a fit.
+    pub(super) fn asked_by_block<'c>(
+        &self,
+        now: &Explained,
+        divided: (&Blocks, &Sums),
+        candidates: &'c [Linear<'s>],
+    ) -> infer::Asked<'c, Linear<'s>> {
+        let screen = self.screen_of(now, Some(divided), candidates);
+        infer::Asked::new(screen, self.scale(now), self.seed)
+    }
 }

@@ -8,9 +8,9 @@ use super::candidates::Candidate;
 use super::explained::Explained;
 use super::fit::Term;
 use super::judge::Divided;
-use super::{Round, Search, is_worse};
+use super::{Round, Search};
 use crate::infer::against;
-use crate::infer::constants::SIGNIFICANT;
+use crate::infer::constants::{DISTINGUISHABLE, SIGNIFICANT};
 use crate::log::effects::{COULOMB, LogEffect, SCALE, Spot, VISCOUS};
 
 /// Friction's two numbers.
@@ -63,11 +63,11 @@ impl Search<'_, '_> {
 
     /// Joints at which one of both would take away more friction than there is.
     fn too_much<'r>(&'r self, round: &'r Round) -> impl Iterator<Item = usize> + 'r {
-        let asked = round.asked.candidates.iter().zip(&round.asked.p_values);
-        let is_more = |(c, p): &(&Candidate, &f64)| {
-            **p <= SIGNIFICANT && is_either(c.term.effect) && !self.dict.case.is_feasible(&c.term)
+        let is_more = |c: &&Candidate| {
+            let is_less = !self.dict.case.is_feasible(&c.term);
+            c.answer.p_value <= SIGNIFICANT && is_either(c.term.effect) && is_less
         };
-        asked.filter(is_more).filter_map(|(c, _)| c.term.spot.joint())
+        round.asked.candidates.iter().filter(is_more).filter_map(|c| c.term.spot.joint())
     }
 
     /// Both as they are offered for a joint at which the robot file has one of them, and the terms none.
@@ -100,36 +100,39 @@ impl Search<'_, '_> {
         own.iter().all(|term| self.dict.case.is_feasible(term)).then_some(with)
     }
 
-    /// What does as well in place of a term that leaves such `squares`: both for a scale of the joint's torque, that scale
-    /// for both; each with the squares that it leaves.
+    /// What is not told from a term by its evidence: both for a scale of the joint's torque, that scale for both; each
+    /// with the squares that it leaves of the blocks, held out.
     pub(super) fn instead(
         &self,
         now: &Explained,
         term: &Term,
         divided: Divided<'_>,
-        squares: &[f64],
-    ) -> Vec<(Term, Vec<f64>)> {
+    ) -> Vec<(Term, f64)> {
         let Some(joint) = term.spot.joint() else { return Vec::new() };
         let is_here = |t: &Term| t.spot == term.spot;
         let own = now.fit.terms.iter().filter(|t| is_here(t) && is_either(t.effect)).count();
         let mut others = now.fit.terms.clone();
-        let found: Vec<(Term, Vec<f64>)> = if term.effect.identifier() == SCALE.identifier() {
+        let with = if term.effect.identifier() == SCALE.identifier() {
             others.retain(|t| !(is_here(t) && t.effect.identifier() == SCALE.identifier()));
-            let Some(with) = self.with_both(&others, joint, now) else { return Vec::new() };
-            let left = self.asked(&with, divided, &[]).squares;
-            let own = with.fit.terms[others.len()..].iter();
-            own.map(|t| (t.clone(), left.clone())).collect()
+            self.with_both(&others, joint, now)
         } else if is_either(term.effect) && own == BOTH.len() {
             others.retain(|t| !(is_here(t) && is_either(t.effect)));
             let scale = self.both_at(&others, joint).and_then(|_| self.offered(SCALE, term.spot));
-            let lacks = self.fitted(&others, now);
-            let asked = scale.map(|offer| self.asked(&lacks, divided, &[offer]));
-            let asked = asked.into_iter().flat_map(|asked| asked.candidates);
-            let feasible = asked.filter(|c| self.dict.case.is_feasible(&c.term));
-            feasible.map(|c| (c.term, c.squares)).collect()
+            scale.map(|offer| {
+                let terms = [&others[..], &[self.dict.term(offer, 0)]].concat();
+                self.fitted(&terms, now)
+            })
         } else {
-            Vec::new()
+            None
         };
-        found.into_iter().filter(|(_, other)| !is_worse(other, squares)).collect()
+        let Some(with) = with else { return Vec::new() };
+        let worse = against(self, &with, now) - against(self, now, now);
+        let added = &with.fit.terms[others.len()..];
+        let is_feasible = added.iter().all(|term| self.dict.case.is_feasible(term));
+        if !is_feasible || worse > DISTINGUISHABLE {
+            return Vec::new();
+        }
+        let left = self.asked(&with, divided, &[]).left;
+        added.iter().map(|term| (term.clone(), left)).collect()
     }
 }

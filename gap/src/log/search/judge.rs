@@ -1,5 +1,6 @@
 //! What the findings are worth: whether each is more than accident beside the others, and what else would do.
 
+use super::Search;
 use super::along::is_along;
 use super::blocks::Blocks;
 use super::candidates::{Asked, Candidate};
@@ -7,18 +8,11 @@ use super::dictionary::Dictionary;
 use super::explained::Explained;
 use super::fit::{Fitted, Links, Term};
 use super::normal_equations::Sums;
-use super::{Search, is_worse};
 use crate::effects::Place;
 use crate::infer::constants::{DISTINGUISHABLE, SIGNIFICANT};
+use crate::infer::{Answer, Doubt, students_t, worst};
 use crate::log::effects::{LINKS, SCALE, Spot};
 use crate::parallel;
-
-/// What does as well as a finding may miss by a hair to be more than accident by itself: of a rival is asked only that
-/// the best of unrelated things does not usually do as much.
-const RIVAL: f64 = 0.5;
-
-/// Rivals of one finding that are told.
-const RIVALS: usize = 5;
 
 /// The blocks, and the products of each.
 pub(super) type Divided<'d> = (&'d Blocks, &'d Sums);
@@ -27,33 +21,12 @@ pub(super) type Divided<'d> = (&'d Blocks, &'d Sums);
 pub struct Judged {
     /// With its values.
     pub term: Term,
-    /// The chance that something unrelated does as well.
-    pub p_value: f64,
-    /// What it leaves of each block, held out.
-    squares: Vec<f64>,
-    /// Whether that is less than what the others leave without it.
-    shrinks: bool,
+    /// What speaks against it.
+    pub doubt: Doubt,
+    /// Squares that it leaves of the blocks, held out.
+    left: f64,
     /// What would do instead, with what it leaves for each that the finding leaves; the best first.
     pub rivals: Vec<(Term, f64)>,
-}
-
-impl Judged {
-    /// Notes that other numbers of all links would do instead, if what these leave is not told from what
-    /// the finding leaves.
-    fn beside_links(&mut self, squares: &[f64]) {
-        if !is_worse(squares, &self.squares) {
-            let ratio = squares.iter().sum::<f64>() / self.squares.iter().sum::<f64>();
-            let links = Term {
-                offer: usize::MAX,
-                entry: 0,
-                effect: LINKS,
-                spot: Spot::at(Place::Arm),
-                values: Vec::new(),
-                margin: 0.0,
-            };
-            self.rivals.push((links, ratio.sqrt()));
-        }
-    }
 }
 
 /// What a log says at the end.
@@ -80,16 +53,13 @@ impl Search<'_, '_> {
             let divided = (&blocks, &sums);
             let judged = |k: usize| self.judge(&now, k, divided);
             let all: Vec<Judged> = parallel::map(now.fit.terms.len(), &judged);
-            let wrong = |j: &Judged| !self.dict.case.is_feasible(&j.term);
-            let is_idle = |j: &Judged| j.p_value > SIGNIFICANT || !j.shrinks;
-            let doubted =
-                |j: &Judged| wrong(j) || (is_idle(j) && !is_along(&j.term, &now.fit.terms));
-            let worst = (0..all.len()).filter(|k| doubted(&all[*k])).max_by(|a, b| {
-                let doubt = |k: &usize| (wrong(&all[*k]), !all[*k].shrinks, all[*k].p_value);
-                let (a, b) = (doubt(a), doubt(b));
-                (a.0, a.1).cmp(&(b.0, b.1)).then(a.2.total_cmp(&b.2))
-            });
-            let terms = match worst {
+            let doubted = |(_, judged): &(usize, &Judged)| {
+                let Judged { term, doubt, .. } = judged;
+                let is_idle = doubt.is_idle(SIGNIFICANT) && !is_along(term, &now.fit.terms);
+                doubt.is_impossible || is_idle
+            };
+            let doubted = all.iter().enumerate().filter(doubted);
+            let terms = match worst(doubted.map(|(k, judged)| (k, judged.doubt))) {
                 None => {
                     let terms = self.with_along(now.fit.terms.clone());
                     if tried || terms.len() == now.fit.terms.len() {
@@ -121,22 +91,56 @@ impl Search<'_, '_> {
         let near: Vec<usize> = self.offers.iter().filter(near).copied().collect();
         let lacks = self.fitted(&others, now);
         let mut judged = self.lacking(&lacks, divided, &near).judge(dict, term);
-        let own = judged.squares.iter().sum::<f64>();
-        for (rival, left) in self.instead(now, &judged.term, divided, &judged.squares) {
+        for (rival, left) in self.instead(now, &judged.term, divided) {
             let is_it = |(t, _): &(Term, f64)| t.offer == rival.offer;
             if !judged.rivals.iter().any(is_it) {
-                judged.rivals.push((rival, (left.iter().sum::<f64>() / own).sqrt()));
+                judged.rivals.push((rival, (left / judged.left).sqrt()));
             }
         }
-        if *self.links != Links::Free
-            && judged.term.effect.carried(dict.case.arm, judged.term.spot).is_none()
-        {
+        let is_of_body = judged.term.effect.carried(dict.case.arm, judged.term.spot).is_some();
+        if *self.links != Links::Free && !is_of_body {
             let fit = Fitted::of(dict, &others, &Links::Free, &now.sizes);
             let free = Explained { fit, ..now.clone() };
-            judged.beside_links(&self.asked(&free, divided, &[]).squares);
+            judged.rivals.extend(self.links_instead(now, &free, divided));
         }
         judged
     }
+
+    /// Other numbers of all links, with what they leave for each that is left now, if chance may have made that more.
+    /// They have no evidence: nothing is known of them beforehand.
+    fn links_instead(
+        &self,
+        now: &Explained,
+        free: &Explained,
+        divided: Divided<'_>,
+    ) -> Option<(Term, f64)> {
+        let [own, other] =
+            [now, free].map(|fit| self.asked_by_block(fit, divided, &[]).held_out_by_block(None));
+        let links = Term {
+            offer: usize::MAX,
+            entry: 0,
+            effect: LINKS,
+            spot: Spot::at(Place::Arm),
+            values: Vec::new(),
+            margin: 0.0,
+        };
+        let ratio = other.iter().sum::<f64>() / own.iter().sum::<f64>();
+        (!is_worse(&other, &own)).then_some((links, ratio.sqrt()))
+    }
+}
+
+/// How often chance leaves what does as well as a finding out of its set: the sets of 97 in 100 logs are to hold the
+/// truth.
+const LEFT_OUT: f64 = 0.01;
+
+/// Whether what one leaves of the blocks is told from what another leaves: the larger, by more than the
+/// blocks scatter, one-sided.
+fn is_worse(other: &[f64], best: &[f64]) -> bool {
+    let differences: Vec<f64> = other.iter().zip(best).map(|(o, b)| o - b).collect();
+    let n = differences.len() as f64;
+    let mean = differences.iter().sum::<f64>() / n;
+    let variance = differences.iter().map(|d| (d - mean).powi(2)).sum::<f64>() / (n - 1.0) / n;
+    mean > students_t(n - 1.0, 1.0 - LEFT_OUT) * variance.sqrt()
 }
 
 /// Whether a body's numbers hold what a scale of all loads does: that body, so many times. It leaves as little, and on what
@@ -154,31 +158,23 @@ const ALL: f64 = 1.0 - 1e-6;
 impl Asked {
     /// The finding that the model lacks.
     fn judge(self, dict: &Dictionary<'_>, term: Term) -> Judged {
-        let Some(own) = self.candidates.iter().position(|c| c.term.offer == term.offer) else {
+        let is_impossible = !dict.case.is_feasible(&term);
+        let Some(own) = self.candidates.iter().find(|c| c.term.offer == term.offer) else {
             // It adds to what has gone: nothing speaks for it.
-            let (squares, rivals) = (self.squares, Vec::new());
-            return Judged { term, p_value: 1.0, squares, shrinks: false, rivals };
+            let doubt = Doubt { is_impossible, is_idle: true, p_value: 1.0 };
+            return Judged { term, doubt, left: self.left, rivals: Vec::new() };
         };
-        let left = |k: usize| self.candidates[k].squares.iter().sum::<f64>();
-        let Candidate { squares: best, gain, .. } = &self.candidates[own];
-        let mut rivals: Vec<usize> = (0..self.candidates.len())
-            .filter(|k| {
-                let rival = &self.candidates[*k];
-                *k != own
-                    && self.p_values[*k] <= RIVAL
+        let Answer { gain, left, shrinks, p_value } = own.answer;
+        let mut rivals: Vec<&Candidate> = (self.candidates.iter())
+            .filter(|rival| {
+                rival.term.offer != term.offer
                     && dict.case.is_feasible(&rival.term)
-                    && (gain - rival.gain <= DISTINGUISHABLE
-                        || !is_worse(&rival.squares, best)
-                        || has_it_in(dict, rival, &self.candidates[own]))
+                    && (gain - rival.answer.gain <= DISTINGUISHABLE || has_it_in(dict, rival, own))
             })
             .collect();
-        rivals.sort_by(|a, b| left(*a).total_cmp(&left(*b)));
-        rivals.truncate(RIVALS);
-        let ratio = |k: usize| (left(k) / left(own)).sqrt();
-        let rivals = rivals.into_iter().map(|k| (self.candidates[k].term.clone(), ratio(k)));
-        // What took less than many others was not held out.
-        let shrinks = left(own) < self.squares.iter().sum() || *best == self.squares;
-        let squares = best.clone();
-        Judged { p_value: self.p_values[own], squares, shrinks, rivals: rivals.collect(), term }
+        rivals.sort_by(|a, b| a.answer.left.total_cmp(&b.answer.left));
+        let ratio = |rival: &Candidate| (rival.answer.left / left).sqrt();
+        let rivals = rivals.into_iter().map(|rival| (rival.term.clone(), ratio(rival))).collect();
+        Judged { term, doubt: Doubt { is_impossible, is_idle: !shrinks, p_value }, left, rivals }
     }
 }

@@ -36,7 +36,6 @@ use normal_equations::Sums;
 use super::effects::{Catalogue, LogEffect};
 use super::scene::Loads;
 use crate::infer::constants::{LOOSE, SIGNIFICANT};
-use crate::infer::students_t;
 use crate::signal::Signals;
 
 /// So many candidates are asked again by blocks of their own.
@@ -124,7 +123,7 @@ impl<'s, 'a> Search<'s, 'a> {
         // What is left remembers long while something slow is missing, and few blocks tell nothing. Were a
         // candidate unrelated, what is left would be left with it too: so long are the blocks. It is asked before
         // what has less evidence, and would be taken for it bit by bit.
-        let best = round.best(self.dict.case).map_or(0.0, |best| best.gain);
+        let best = round.best(self.dict.case).map_or(0.0, |best| best.answer.gain);
         let most = round.asked.most(self.dict.case, best);
         let looks = 1.0 + most.len() as f64;
         for most in most {
@@ -135,9 +134,10 @@ impl<'s, 'a> Search<'s, 'a> {
                 continue;
             }
             let mut asked = ask(&blocks);
-            for (p_value, candidate) in asked.p_values.iter_mut().zip(&asked.candidates) {
+            for candidate in &mut asked.candidates {
                 // Each look is another question that chance may answer, as was the first (Bonferroni).
                 let is_it = candidate.term.offer == most.term.offer;
+                let p_value = &mut candidate.answer.p_value;
                 *p_value = if is_it { (looks * *p_value).min(1.0) } else { 1.0 };
             }
             let again = Round { now: now.clone(), blocks, asked };
@@ -177,16 +177,12 @@ impl<'s, 'a> Search<'s, 'a> {
 }
 
 impl Round {
-    /// The candidate that has most evidence, of those that chance does not explain and that leave less of what is held
-    /// out.
+    /// The candidate that has most evidence, of those that are found.
     pub fn best(&self, case: &Case<'_>) -> Option<&Candidate> {
-        let Asked { squares, candidates, p_values } = &self.asked;
-        let whole: f64 = squares.iter().sum();
-        let left = |c: &Candidate| c.squares.iter().sum::<f64>();
-        let told = candidates.iter().zip(p_values);
-        let told = told.filter(|(c, p)| **p <= SIGNIFICANT && c.gain > 0.0).map(|(c, _)| c);
-        let told = told.filter(|c| left(c) < whole && case.is_feasible(&c.term));
-        told.max_by(|a, b| a.gain.total_cmp(&b.gain))
+        let candidates = self.asked.candidates.iter();
+        let found = candidates.filter(|c| c.answer.is_found(SIGNIFICANT));
+        let found = found.filter(|c| case.is_feasible(&c.term));
+        found.max_by(|a, b| a.answer.gain.total_cmp(&b.answer.gain))
     }
 }
 
@@ -194,27 +190,14 @@ impl Asked {
     /// The candidates that chance may explain and that have most evidence, more than so much; that which has most
     /// first.
     fn most(&self, case: &Case<'_>, least: f64) -> Vec<&Candidate> {
-        let open = self.candidates.iter().zip(&self.p_values).filter(|(_, p)| **p > SIGNIFICANT);
-        let may = open.map(|(c, _)| c).filter(|c| case.is_feasible(&c.term));
-        let mut most: Vec<&Candidate> = may.filter(|c| c.gain > least).collect();
-        most.sort_by(|a, b| b.gain.total_cmp(&a.gain));
+        let may = |c: &&Candidate| {
+            c.answer.p_value > SIGNIFICANT && c.answer.gain > least && case.is_feasible(&c.term)
+        };
+        let mut most: Vec<&Candidate> = self.candidates.iter().filter(may).collect();
+        most.sort_by(|a, b| b.answer.gain.total_cmp(&a.answer.gain));
         most.truncate(AGAIN);
         most
     }
-}
-
-/// How often chance leaves what does as well as a finding out of its set: the sets of 97 in 100 logs are to hold the
-/// truth.
-const LEFT_OUT: f64 = 0.01;
-
-/// Whether what one leaves of the blocks is told from what another leaves: the larger, by more than the
-/// blocks scatter, one-sided.
-pub fn is_worse(other: &[f64], best: &[f64]) -> bool {
-    let differences: Vec<f64> = other.iter().zip(best).map(|(o, b)| o - b).collect();
-    let n = differences.len() as f64;
-    let mean = differences.iter().sum::<f64>() / n;
-    let variance = differences.iter().map(|d| (d - mean).powi(2)).sum::<f64>() / (n - 1.0) / n;
-    mean > students_t(n - 1.0, 1.0 - LEFT_OUT) * variance.sqrt()
 }
 
 /// Independent numbers that the rows of the joints hold.
