@@ -105,8 +105,8 @@ pub struct Doubt {
 }
 
 impl Doubt {
-    /// Whether chance explains the finding.
-    pub fn is_idle(&self, chance: f64) -> bool {
+    /// Whether the finding is idle, or chance explains it more often than in this part.
+    pub fn is_doubted(&self, chance: f64) -> bool {
         self.is_idle || self.p_value > chance
     }
 }
@@ -225,9 +225,9 @@ mod tests {
         );
         assert_eq!(worst_of(&[]), None);
         assert!(
-            all[1].is_idle(SIGNIFICANT)
-                && all[0].is_idle(SIGNIFICANT)
-                && !all[2].is_idle(SIGNIFICANT)
+            all[1].is_doubted(SIGNIFICANT)
+                && all[0].is_doubted(SIGNIFICANT)
+                && !all[2].is_doubted(SIGNIFICANT)
         );
     }
 }

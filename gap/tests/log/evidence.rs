@@ -75,7 +75,7 @@ fn trial(seed: u64, arm: &Arm) -> (f64, f64) {
     let wanted = [(&UNRELATED as &dyn InMotion, Spot::of_joint(0), vec![vec![0.0]])];
     let dict = Dictionary::of(&case, &Simple::default(), &wanted, 1);
     let round = Search::new(&dict, &Links::Free, &[0], seed).round(&[], &[1.0]);
-    (round.asked.p_values[0], round.now.correlation[0])
+    (round.asked.candidates[0].answer.p_value, round.now.correlation[0])
 }
 
 /// By samples it is significant at 5 % in four trials of five (`docs/logs.md`); by blocks of five

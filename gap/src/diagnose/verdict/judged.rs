@@ -47,13 +47,11 @@ impl Search<'_, '_> {
             (self.progress)(Stage::Judge(groups.len()));
             let rivals = self.all_rivals(&now, &groups)?;
             let doubts = rivals.iter().map(|rivals| rivals.doubt).enumerate();
-            let doubted = doubts.filter(|(_, doubt)| doubt.is_idle(SIGNIFICANT));
+            let doubted = doubts.filter(|(_, doubt)| doubt.is_doubted(SIGNIFICANT));
             let Some(worst) = worst(doubted).filter(|_| !self.stopped()) else {
                 break (groups, rivals);
             };
-            let mut out = groups[worst].clone();
-            out.sort_unstable();
-            now = self.fitted_without(now, &out)?;
+            now = self.fitted_without(now, &groups[worst])?;
         };
         let held = Held::new(self, &now);
         let shrinking = held.ordered(&groups);
@@ -81,10 +79,16 @@ impl Search<'_, '_> {
         let residual = is_left.then(|| self.residual(&now, before, after));
         let observability = self.observability(&now.fit, &certainty);
         let (bench, pairs) = (self.bench(&now, &certainty), self.pairs_apart(&now));
-        let after = after.to_vec();
-        let judged =
-            Judged { findings, after, shrink, unexplained, residual, observability, bench, pairs };
-        drop(held);
+        let judged = Judged {
+            findings,
+            after: after.to_vec(),
+            shrink,
+            unexplained,
+            residual,
+            observability,
+            bench,
+            pairs,
+        };
         Ok((now, judged))
     }
 }

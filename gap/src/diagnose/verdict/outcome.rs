@@ -9,7 +9,7 @@ use crate::effects::At;
 use crate::infer::{Basis, Products, RANK, ordered};
 use crate::parallel;
 
-/// The effects of one finding: all forms of one effect at one place are one.
+/// The effects of one finding, ascending: all forms of one effect at one place are one.
 pub(crate) type Group = Vec<usize>;
 
 /// Rows that are worked on by one thread.

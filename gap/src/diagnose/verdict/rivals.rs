@@ -45,9 +45,7 @@ impl Search<'_, '_> {
         group: &Group,
         is_idle: bool,
     ) -> Result<Rivals, DiagnoseError> {
-        let mut without = group.clone();
-        without.sort_unstable();
-        let asked = self.asked(now, &without);
+        let asked = self.asked(now, group);
         let (screen, ranked) = (&asked.screen, &asked.ranked);
         let left = self.left(now);
         let variance = self.scale(now).variance(left, now.fit.model.parameters(self.problem));

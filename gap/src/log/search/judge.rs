@@ -55,8 +55,8 @@ impl Search<'_, '_> {
             let all: Vec<Judged> = parallel::map(now.fit.terms.len(), &judged);
             let doubted = |(_, judged): &(usize, &Judged)| {
                 let Judged { term, doubt, .. } = judged;
-                let is_idle = doubt.is_idle(SIGNIFICANT) && !is_along(term, &now.fit.terms);
-                doubt.is_impossible || is_idle
+                let is_along = is_along(term, &now.fit.terms);
+                doubt.is_impossible || (doubt.is_doubted(SIGNIFICANT) && !is_along)
             };
             let doubted = all.iter().enumerate().filter(doubted);
             let terms = match worst(doubted.map(|(k, judged)| (k, judged.doubt))) {
