@@ -1,8 +1,8 @@
 //! What could be added to a model, and whether it is: the questions that every candidate is asked, of whatever
 //! observations.
 //!
-//! A candidate is found if it has evidence, if it leaves less of blocks that no fit has seen, and if the best of all
-//! hardly ever explains as much of what is left where whole blocks have signs of chance.
+//! A candidate is found if it has evidence, if it leaves less of blocks that no fit has seen, and if neither normal noise
+//! nor blocks with signs of chance let the best of all explain as much but seldom.
 
 use std::sync::OnceLock;
 
@@ -21,7 +21,7 @@ pub struct Asked<'c, C> {
     /// Squares of the held-out blocks without any of them.
     pub before: HeldOut,
     trained: Vec<Trained>,
-    variance: f64,
+    scale: Scale,
     seed: u64,
     flips: OnceLock<SignFlips>,
 }
@@ -31,8 +31,7 @@ impl<'c, C: Columns> Asked<'c, C> {
     pub fn new(screen: Screen<'c, C>, scale: Scale, seed: u64) -> Self {
         let (trained, ranked) = (screen.trained(), screen.ranked(scale));
         let before = screen.held_out(&trained, None);
-        let variance = scale.variance(screen.left(), screen.basis.rank());
-        Self { screen, ranked, before, trained, variance, seed, flips: OnceLock::new() }
+        Self { screen, ranked, before, trained, scale, seed, flips: OnceLock::new() }
     }
 
     /// Weighted squares that a candidate, or none, leaves of each held-out block.
@@ -45,13 +44,16 @@ impl<'c, C: Columns> Asked<'c, C> {
         self.screen.held_out(&self.trained, Some(candidate))
     }
 
-    /// The chance that the best of all explains as much where blocks have signs of chance.
+    /// The chance that the best of all explains as much without a cause: the larger of what normal noise gives and of
+    /// what blocks with signs of chance give. The former knows how many numbers are fitted, to which the signs are
+    /// blind; the latter that the noise of neighbours is one, and that candidates resemble each other.
     pub fn p_value(&self, of: &Score) -> f64 {
+        let (left, fitted) = (self.screen.left(), self.screen.basis.rank());
         let flips = self.flips.get_or_init(|| {
             let tried: Vec<usize> = self.ranked.iter().map(|one| one.candidate).collect();
-            SignFlips::new(&self.screen, &tried, self.variance, self.seed)
+            SignFlips::new(&self.screen, &tried, self.scale.variance(left, fitted), self.seed)
         });
-        flips.p_value(of)
+        flips.p_value(of).max(self.scale.p_value(of, left, fitted, self.ranked.len()))
     }
 
     /// What a candidate answers.

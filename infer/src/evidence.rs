@@ -1,11 +1,21 @@
-//! How much the data speak for a candidate: its cost in parameters weighed against what it explains.
+//! How much the data speak for a candidate: its cost in parameters weighed against what it
+//! explains, and the chance that noise alone explains as much.
 
 use nalgebra::{DMatrix, DVector};
+use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
 
 use super::basis::principal;
+use super::score::Score;
 
 /// Steps to a scale: each is nearer by the part of the numbers that are hardly decided.
 const MOST_SCALED: usize = 50;
+
+/// A fall of squares beyond this, in units of the variance, is no chance with any number of
+/// parameters that an effect has; the distributions' tails are not asked there.
+const CERTAIN: f64 = 2000.0;
+
+/// No chance is told below this.
+const LEAST_CHANCE: f64 = 1e-300;
 
 /// What remains against what the noise is.
 #[derive(Clone, Copy, Debug)]
@@ -41,6 +51,26 @@ impl Scale {
     pub(crate) fn count(&self) -> usize {
         (self.numbers as f64 * self.independent) as usize
     }
+
+    /// The chance that noise makes a fall as large with so many parameters, `tried` candidates
+    /// having been tried (Bonferroni).
+    pub fn p_value(&self, score: &Score, left: f64, fitted: usize, tried: usize) -> f64 {
+        if score.rank == 0 || score.drop <= 0.0 {
+            return 1.0;
+        }
+        let (rank, freedom) = (score.rank as f64, self.freedom(fitted + score.rank));
+        let variance = self.variance((left - score.drop).max(0.0), fitted + score.rank);
+        let p_value = if score.drop / variance > CERTAIN {
+            Some(0.0)
+        } else if self.known && variance == 1.0 {
+            ChiSquared::new(rank).ok().map(|d| d.sf(score.drop))
+        } else {
+            let ratio = score.drop / rank / variance;
+            FisherSnedecor::new(rank, freedom).ok().map(|d| d.sf(ratio))
+        };
+        let p_value = p_value.unwrap_or(1.0);
+        if p_value.is_nan() { 1.0 } else { (p_value * tried as f64).clamp(LEAST_CHANCE, 1.0) }
+    }
 }
 
 /// The most likely common factor of the standard deviations of some numbers, of which they have the posterior
@@ -68,6 +98,16 @@ mod tests {
 
     use super::*;
     use crate::rng::{Rng, Stream};
+
+    #[test]
+    fn known_noise_gives_the_chi_squared_chance() {
+        let scale = Scale { known: true, numbers: 100, independent: 1.0 };
+        let values = nalgebra::DVector::zeros(1);
+        let score = Score { drop: 3.841_458_8, values, rank: 1, own: 1.0 };
+        let p_value = scale.p_value(&score, 90.0, 0, 1);
+        assert!((p_value - 0.05).abs() < 1e-6, "{p_value}");
+        assert_eq!(scale.p_value(&score, 90.0, 0, 100), 1.0);
+    }
 
     /// Of forty numbers that are three times as large as is usual the scale is that of the largest
     /// density of what was measured, written down as such and searched by tenths of a per cent.
