@@ -1,8 +1,8 @@
 //! What could be added to a model, and whether it is: the questions that every candidate is asked, of whatever
 //! observations.
 //!
-//! A candidate is found if it has evidence, if it leaves less of blocks that no fit has seen, and if neither normal noise
-//! nor blocks with signs of chance let the best of all explain as much but seldom.
+//! A candidate is found if it has evidence, if it leaves smaller squares of blocks that no fit has seen, and if its p value
+//! is small.
 
 use std::sync::OnceLock;
 
@@ -44,9 +44,9 @@ impl<'c, C: Columns> Asked<'c, C> {
         self.screen.held_out(&self.trained, Some(candidate))
     }
 
-    /// The chance that the best of all explains as much without a cause: the larger of what normal noise gives and of
-    /// what blocks with signs of chance give. The former knows how many numbers are fitted, to which the signs are
-    /// blind; the latter that the noise of neighbours is one, and that candidates resemble each other.
+    /// The p value, corrected for all candidates: the larger of the F test's (Bonferroni) and the sign-flip test's. The F
+    /// test accounts for the number of fitted parameters, the sign-flip test for correlation within a block and among
+    /// candidates.
     pub fn p_value(&self, of: &Score) -> f64 {
         let (left, fitted) = (self.screen.left(), self.screen.basis.rank());
         let flips = self.flips.get_or_init(|| {
@@ -63,15 +63,15 @@ impl<'c, C: Columns> Asked<'c, C> {
         Answer { gain: one.gain, left, shrinks, p_value: self.p_value(&one.score) }
     }
 
-    /// That of a candidate which the rows do not decide.
-    pub fn silence(&self) -> Answer {
+    /// The answer of a candidate that the rows do not decide.
+    pub fn undecided(&self) -> Answer {
         let (gain, left) = (f64::NEG_INFINITY, self.before.white);
         Answer { gain, left, shrinks: false, p_value: 1.0 }
     }
 
-    /// Whether a candidate is found, chance explaining as much less often than in this part.
-    pub fn is_found(&self, one: &Ranked, chance: f64) -> bool {
-        one.gain > 0.0 && self.answer(one).is_found(chance)
+    /// Whether a candidate is found at this level of significance.
+    pub fn is_found(&self, one: &Ranked, level: f64) -> bool {
+        one.gain > 0.0 && self.answer(one).is_found(level)
     }
 }
 
@@ -84,37 +84,37 @@ pub struct Answer {
     pub left: f64,
     /// Whether these are fewer than without it.
     pub shrinks: bool,
-    /// The chance that the best of all explains as much without a cause.
+    /// The p value, corrected for all candidates.
     pub p_value: f64,
 }
 
 impl Answer {
-    /// Whether it is found, chance explaining as much less often than in this part.
-    pub fn is_found(&self, chance: f64) -> bool {
-        self.gain > 0.0 && self.shrinks && self.p_value <= chance
+    /// Whether it is found at this level of significance.
+    pub fn is_found(&self, level: f64) -> bool {
+        self.gain > 0.0 && self.shrinks && self.p_value <= level
     }
 }
 
 /// What speaks against a finding beside all the others.
 #[derive(Clone, Copy, Debug)]
 pub struct Doubt {
-    /// Its values are those of no such thing.
+    /// Its values are impossible, as of friction that drives.
     pub is_impossible: bool,
     /// Without it no more of the held-out blocks is left.
     pub is_idle: bool,
-    /// The chance that the best of all explains as much without a cause.
+    /// The p value, corrected for all candidates.
     pub p_value: f64,
 }
 
 impl Doubt {
-    /// Whether the finding is idle, or chance explains it more often than in this part.
-    pub fn is_doubted(&self, chance: f64) -> bool {
-        self.is_idle || self.p_value > chance
+    /// Whether the finding is idle, or not significant at this level.
+    pub fn is_doubted(&self, level: f64) -> bool {
+        self.is_idle || self.p_value > level
     }
 }
 
-/// The finding that is to be taken back first, of those that are doubted: what none can be, then what is idle, then
-/// what chance explains best.
+/// The finding that is to be removed first, of those that are doubted: one with impossible values, then an idle one, then
+/// the one with the largest p value.
 pub fn worst(doubts: impl Iterator<Item = (usize, Doubt)>) -> Option<usize> {
     let order = |(_, a): &(usize, Doubt), (_, b): &(usize, Doubt)| {
         let plain = |doubt: &Doubt| (doubt.is_impossible, doubt.is_idle);

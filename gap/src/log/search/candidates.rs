@@ -135,7 +135,7 @@ impl<'s> Search<'s, '_> {
             let ranked = asked.ranked.iter().find(|one| range.contains(&one.candidate));
             let (at, score, answer) = match ranked {
                 Some(one) => (one.candidate, one.score.clone(), asked.answer(one)),
-                None => (range.start, asked.screen.score(range.start), asked.silence()),
+                None => (range.start, asked.screen.score(range.start), asked.undecided()),
             };
             let term = self.term(&all[at], &score.values);
             Candidate { term, answer, seen: score.rank > 0, drop: score.drop }
