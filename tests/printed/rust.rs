@@ -115,7 +115,8 @@ pub fn answers(batch: &Batch, (feature, flags): (&str, &str)) -> Vec<Vec<String>
     fs::write(source.join("main.rs"), main + &arms).expect("written");
     let target = if flags.is_empty() { "target" } else { "flags" };
     let mut cargo = Command::new(env!("CARGO"));
-    cargo.args(["build", "--quiet", "--offline", "--features", feature, "--target-dir", target]);
+    // Not `--offline`: `dispatch` needs a package that nothing else of the workspace has fetched.
+    cargo.args(["build", "--quiet", "--features", feature, "--target-dir", target]);
     cargo.env("RUSTFLAGS", flags).current_dir(&folder);
     let built = cargo.output().expect("cargo starts");
     let said = String::from_utf8_lossy(&built.stderr);
