@@ -9,7 +9,7 @@ mod orientation;
 
 use core::f64::consts::TAU;
 
-use nalgebra::{Vector3, Vector6};
+use nalgebra::{Isometry3, Vector3, Vector6};
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::{Arm, Joint};
 
@@ -130,8 +130,10 @@ fn loads(arm: &Arm, data: &Measurements, reach: f64) -> Option<String> {
     };
     let compliance = |j: &Joint| if j.compliance > 0.0 { j.compliance } else { 1.0 / stiffest(j) };
     let most_given = |j: &Joint| if j.motion == Motion::Revolute { 1.0 } else { reach };
+    // Loads are told in the base's axes, wherever it stands.
+    let at_base = Arm { base: Isometry3::identity(), ..arm.clone() };
     let given = |row: &Row| {
-        let torque = arm.joint_torque(&row.q, &row.wrench);
+        let torque = at_base.joint_torque(&row.q, &row.wrench);
         let each = arm.joints.iter().zip(&torque).enumerate();
         let over = each.map(|(j, (joint, t))| (j, compliance(joint) * t.abs() / most_given(joint)));
         over.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, over)| *over > 1.0)

@@ -206,8 +206,7 @@ impl Campaign {
     pub(super) fn certified(&self) -> Result<Document, Failure> {
         let explanation = &self.diagnosed.explanation;
         let gaps = explanation.predict(&self.data)?;
-        let placed = explanation.placed();
-        Ok(self.reported(None).certificate(&Fitted { placed: &placed, gaps: &gaps }))
+        Ok(self.reported(None).certificate(&Fitted { explanation, gaps: &gaps }))
     }
 
     /// What the models before and after make of other measurements of the arm.
@@ -235,8 +234,7 @@ impl Found for Campaign {
         }
         let explanation = &self.diagnosed.explanation;
         let gaps = explanation.predict(&self.data)?;
-        let placed = explanation.placed();
-        let fitted = Fitted { placed: &placed, gaps: &gaps };
+        let fitted = Fitted { explanation, gaps: &gaps };
         let reported = self.reported(Some(fitted));
         Ok((reported.document(), reported.embedded(&fitted, &self.diagnosed.diagnosis)?))
     }

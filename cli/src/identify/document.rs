@@ -107,6 +107,7 @@ impl Identified<'_> {
             data: self.data,
             arm: self.arm,
             placed: self.arm,
+            mounts: Vec::new(),
             markers: Vec::new(),
             gaps: [before, after],
             shares: Vec::new(),

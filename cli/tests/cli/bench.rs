@@ -198,6 +198,39 @@ fn postures_in_view_are_planned_and_measured() {
     assert!(told.contains("a bench that says roughly where both are"), "{told}");
 }
 
+/// Two cameras beside the arm before one board on the tool: each has the arm where it stands itself.
+#[test]
+fn two_cameras_beside_the_arm_are_simulated_together() {
+    let folder = Folder::new();
+    let camera = |name: &str, [x, y, z]: [f64; 3]| {
+        let lens = "matrix = [[1210, 0, 640], [0, 1190, 355], [0, 0, 1]]";
+        format!(
+            "[[camera]]\nname = \"{name}\"\n{lens}\nat = [{x}, {y}, {z}]\ntowards = [0.3, 0, 0.5]\n"
+        )
+    };
+    let at = [("left", [1.5, 0.9, 0.9]), ("right", [1.3, -1.1, 0.7])];
+    let board = CAMERA.split_once("[[board]]").expect("a board").1;
+    let cameras = at.map(|(name, at)| camera(name, at)).concat();
+    let bench = folder.file("bench.toml", format!("{cameras}[[board]]\non = \"tool\"{board}"));
+    let [plan, data] = ["plan.csv", "run.csv"].map(|name| folder.name(name));
+    let load = "--load 0,0,-30,0,0,0";
+    run(&format!("poses irb120 --for diagnose --count 30 {load} --bench {bench} --csv {plan}"))
+        .good();
+    let how = "--noise-rotation 0.1px --effect 'joint_compliance@joint 2=8e-5'";
+    run(&format!("simulate irb120 {plan} --bench {bench} {how} --csv {data}")).good();
+    let found = run(&format!("diagnose irb120 {data} --bench {bench} --json -")).json();
+    let [finding] = list(&found["findings"]) else { panic!("{found}") };
+    assert!(finding["effect"] == "joint_compliance" && finding["place"] == "joint 2", "{finding}");
+    for (name, at) in at {
+        let is = |frame: &&Value| frame["name"] == "base_frame" && frame["session"] == name;
+        let base = list(&found["nuisances"]).iter().find(is).expect("a frame");
+        let far = [0, 1, 2].map(|k| number(&base["translation"][k]));
+        let [far, was] = [far, at].map(|p| p.iter().map(|x| x * x).sum::<f64>().sqrt());
+        // A tenth of a pixel at 1.8 m is 0.15 mm in a corner of one picture.
+        assert!((far - was).abs() < 1e-3, "{name}: {far} {was}");
+    }
+}
+
 /// Joint values that a controller recorded in sockets, as tables of postures and as a log of an arm that is held there.
 #[test]
 fn recordings_in_sockets_become_measurements() {

@@ -127,6 +127,10 @@ fn a_load_that_no_arm_bears_is_noticed() {
         data.rows[7].wrench = Vector6::new(0.0, 0.0, -1e9, 0.0, 0.0, 0.0);
         let line = format!("line {}: a load of 1.00e9 N and 0 N·m", data.rows[7].line);
         only(&doubts(arm, &data, &[]), &[&line, words, "no arm bears it"]);
+        // A load is told in the base's axes, wherever the base stands.
+        let said = loads(arm, &data, 3.0);
+        let turned = Isometry3::new(Vector3::new(1.0, 2.0, 3.0), Vector3::new(1.0, -0.5, 0.3));
+        assert_eq!(loads(&Arm { base: turned, ..arm.clone() }, &data, 3.0), said);
         // What an arm of three metres may well carry.
         data.rows[7].wrench[2] = -5e3;
         assert_eq!(doubts(arm, &data, &[]), [""; 0]);

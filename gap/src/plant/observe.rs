@@ -226,7 +226,9 @@ impl Reality {
         let over = self.base_slips.iter().filter(|slip| at.follows(slip));
         let slipped: Vector6<f64> = over.map(|slip| slip.by).sum();
         let all = self.base_frame + slipped + at.elapsed() * self.drift;
-        frames.base.to_homogeneous() * self.base * displaced(&all)
+        let first =
+            at.row.camera.as_ref().map_or_else(Matrix4::identity, |s| s.first.to_homogeneous());
+        frames.base.to_homogeneous() * first * self.base * displaced(&all)
     }
 
     fn seen(&self, standing: &Matrix4<f64>, tool: &Matrix4<f64>, row: &Row) -> Shown {

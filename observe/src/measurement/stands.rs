@@ -20,6 +20,8 @@ pub struct Sight {
     pub has_board: bool,
     /// Where what is on the tool is taken to sit in the tool frame by whoever simulates it.
     pub at: Isometry3<f64>,
+    /// In its axes, where the first camera's or board's beside the arm are taken to be; identity of the first itself.
+    pub first: Isometry3<f64>,
 }
 
 impl Sight {
@@ -29,7 +31,7 @@ impl Sight {
     }
 
     /// What is on the tool, in a place of its own.
-    fn mounted(&self) -> Option<&str> {
+    pub fn mounted(&self) -> Option<&str> {
         let mounted = if self.is_on_tool { &self.camera } else { &self.board };
         self.has_board.then_some(mounted)
     }

@@ -17,7 +17,7 @@ mod tests;
 mod worst;
 
 use serde::Serialize;
-use stiffarm_gap::diagnose::{Diagnosis, Nuisance, NuisanceReport, Prediction};
+use stiffarm_gap::diagnose::{Diagnosis, Explanation, Nuisance, NuisanceReport, Prediction};
 use stiffarm_gap::{Measurements, Options};
 use stiffarm_kernels::generic::Arm;
 
@@ -51,8 +51,8 @@ pub struct Campaign<'a> {
 /// The models before and after, fitted to all rows.
 #[derive(Clone, Copy)]
 pub struct Fitted<'a> {
-    /// The arm with its tool where the measured frame was fitted.
-    pub placed: &'a Arm,
+    /// Where base, tool, and what is mounted on it were fitted.
+    pub explanation: &'a Explanation,
     /// The residual of every row before and after.
     pub gaps: &'a Prediction,
 }
@@ -95,7 +95,8 @@ impl Campaign<'_> {
         Experiment {
             data: self.data,
             arm: self.arm,
-            placed: fitted.placed,
+            placed: fitted.explanation.arm(),
+            mounts: fitted.explanation.mounts().collect(),
             markers: found.nuisances.iter().map(|n| (n.name.as_str(), n.translation)).collect(),
             gaps: [&fitted.gaps.before, &fitted.gaps.after],
             shares: places.chain(findings).map(share).collect(),

@@ -86,8 +86,7 @@ impl Bench {
     fn html(&self) -> String {
         let explanation = &self.diagnosed.explanation;
         let gaps = explanation.predict(&self.data).expect("the same data");
-        let placed = explanation.placed();
-        let fitted = Fitted { placed: &placed, gaps: &gaps };
+        let fitted = Fitted { explanation, gaps: &gaps };
         let campaign = self.campaign(Some(fitted));
         let embedded = campaign.embedded(&fitted, &self.diagnosed.diagnosis).expect("numbers");
         campaign.document().html(&embedded).expect("a page")

@@ -1,9 +1,9 @@
 //! What a page draws of an experiment, whatever was made of it: the rows, the arm, and the gap
 //! before and after.
 
-use nalgebra::Vector6;
+use nalgebra::{Isometry3, Point3, Vector6};
 use stiffarm_gap::Measurements;
-use stiffarm_gap::measurement::Row;
+use stiffarm_gap::measurement::{Row, Sight};
 use stiffarm_kernels::generic::Arm;
 
 use crate::document::Unit;
@@ -16,6 +16,8 @@ pub struct Experiment<'a> {
     pub arm: &'a Arm,
     /// The same with base and tool where they were fitted.
     pub placed: &'a Arm,
+    /// The boards or cameras that are on the tool, and where they were found, tool frame.
+    pub mounts: Vec<(&'a str, Isometry3<f64>)>,
     /// Where the markers that the file does not know were found, m, tool frame.
     pub markers: Vec<(&'a str, [f64; 3])>,
     /// Of each row, before and after, m and rad.
@@ -94,8 +96,21 @@ impl Experiment<'_> {
         if self.has_positions() { self.length } else { self.angle }
     }
 
-    /// The measured point of a row in the tool frame, m.
-    pub fn offset(&self, row: &Row) -> [f64; 3] {
+    /// The frame of which a row has a point: the tool's, or that of what is mounted on it; measuring frame.
+    pub fn frame(&self, row: &Row) -> Isometry3<f64> {
+        let tool = self.placed.pose(&row.q);
+        let mounted = row.camera.as_deref().and_then(Sight::mounted);
+        let mount = mounted.and_then(|name| self.mounts.iter().find(|(known, _)| *known == name));
+        mount.map_or(tool, |(_, mount)| tool * mount)
+    }
+
+    /// The measured point of a row in the measuring frame, m.
+    pub fn point(&self, row: &Row) -> Point3<f64> {
+        self.frame(row) * Point3::from(self.offset(row))
+    }
+
+    /// The same in the frame of which the row has it.
+    fn offset(&self, row: &Row) -> [f64; 3] {
         let fitted = row.marker.as_ref().and_then(|marker| {
             self.markers.iter().find(|(name, _)| name == marker).map(|(_, at)| *at)
         });

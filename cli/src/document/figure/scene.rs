@@ -1,6 +1,6 @@
 //! The arm and the gap in space.
 
-use nalgebra::{Isometry3, Point3, Vector3};
+use nalgebra::{Isometry3, Vector3};
 use serde::Serialize;
 use serde_json::Value;
 use stiffarm_gap::measurement::{Kind, Row};
@@ -44,7 +44,7 @@ pub fn scene(experiment: &Experiment<'_>) -> Scene {
     let unit = experiment.main_unit();
     Scene {
         line: middle.line,
-        places: places(experiment, &middle.q),
+        places: places(experiment, middle),
         points: rows.iter().map(|row| point(measured(experiment, row).into())).collect(),
         unit: unit.name,
         si: unit.si,
@@ -73,13 +73,13 @@ fn middle(rows: &[Row]) -> usize {
 fn measured(experiment: &Experiment<'_>, row: &Row) -> Vector3<f64> {
     match experiment.data.kind {
         Kind::Pose { .. } => row.measured.fixed_rows::<3>(0).into_owned(),
-        _ => (experiment.placed.pose(&row.q) * Point3::from(experiment.offset(row))).coords,
+        _ => experiment.point(row).coords,
     }
 }
 
 /// Base, joints and links in their order, tool. A link runs along the lengths of its row.
-fn places(experiment: &Experiment<'_>, q: &[f64]) -> Vec<Place> {
-    let arm = experiment.placed;
+fn places(experiment: &Experiment<'_>, row: &Row) -> Vec<Place> {
+    let (arm, q) = (experiment.placed, &row.q);
     let part = |name: &str| experiment.shares.iter().find(|s| s.place == name);
     let place = |name: String, through: Vec<Vector3<f64>>| Place {
         share: part(&name).and_then(|s| s.share),
@@ -110,7 +110,7 @@ fn places(experiment: &Experiment<'_>, q: &[f64]) -> Vec<Place> {
         places.push(place(format!("joint {}", j + 1), vec![axis]));
     }
     let last = origin(&frames[arm.dof()]);
-    let tool = origin(&arm.pose(q));
+    let tool = origin(&experiment.frame(row));
     places.push(place("tool".to_owned(), vec![last, tool]));
     places
 }

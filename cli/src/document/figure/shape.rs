@@ -4,7 +4,7 @@
 //! is as a motion of the joint (its projection on the joint's Jacobian column, at the measured
 //! point). Points that lie along the curve say that the shape is right; a bend says what it lacks.
 
-use nalgebra::{Point3, Vector3, Vector6};
+use nalgebra::{Isometry3, Vector3, Vector6};
 use serde::Serialize;
 use serde_json::Value;
 use stiffarm_gap::effects::{Curve, Over};
@@ -119,13 +119,11 @@ pub(super) fn torque(experiment: &Experiment<'_>, row: &Row, joint: usize) -> Op
 pub(super) fn lever(experiment: &Experiment<'_>, row: &Row, joint: usize) -> Vector6<f64> {
     let column: Vector6<f64> = experiment.placed.jacobian(&row.q).column(joint).into_owned();
     let turn: Vector3<f64> = column.fixed_rows::<3>(3).into_owned();
-    let arm = experiment.placed.pose(&row.q).rotation * Vector3::from(experiment.offset(row));
-    let moved: Vector3<f64> = column.fixed_rows::<3>(0) + turn.cross(&arm);
-    let frame = experiment.placed.base.rotation;
+    let point = experiment.point(row);
+    let from_tool = point.coords - experiment.placed.pose(&row.q).translation.vector;
+    let shift: Vector3<f64> = column.fixed_rows::<3>(0) + turn.cross(&from_tool);
     if let Some(aim) = &row.aim {
-        let mut at = experiment.placed.pose(&row.q);
-        at.translation = (at * Point3::from(experiment.offset(row))).coords.into();
-        let (shift, turn) = (frame * moved, frame * turn);
+        let at = Isometry3::from_parts(point.into(), experiment.frame(row).rotation);
         let moved =
             aim.view.by_frame(&at) * Vector6::from_iterator(shift.iter().chain(&turn).copied());
         let first = if aim.view.is_angle() { 3 } else { 0 };
@@ -133,8 +131,7 @@ pub(super) fn lever(experiment: &Experiment<'_>, row: &Row, joint: usize) -> Vec
         lever.fixed_rows_mut::<3>(first).copy_from(&moved);
         return lever;
     }
-    let (from, part) =
-        if experiment.has_positions() { (0, frame * moved) } else { (3, frame * turn) };
+    let (from, part) = if experiment.has_positions() { (0, shift) } else { (3, turn) };
     let measured = experiment.data.kind.components();
     let mut lever = Vector6::zeros();
     for k in (0..3).filter(|k| measured[from + k]) {
@@ -166,4 +163,61 @@ fn shown(motion: Motion, most: f64) -> (&'static str, Axis) {
     };
     let (unit, si) = if most < SMALL { (names[0], 1e-6) } else { (names[1], 1e-3) };
     (file, Axis { name: format!("joint moves, {unit}"), si })
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Point3;
+    use stiffarm_codegen::robot::Robot;
+    use stiffarm_gap::Measurements;
+    use stiffarm_gap::measurement::Sight;
+    use stiffarm_gap::plant::design::{Design, Shape};
+
+    use super::*;
+    use crate::document::Unit;
+
+    /// What a joint moves a marker by, with the arm's base turned and the marker on something that is mounted on the
+    /// tool, by central differences of where the marker is.
+    #[test]
+    fn a_lever_is_the_motion_of_the_point() {
+        let text = stiffarm_robots::toml("irb120").expect("of the collection");
+        let (robot, _) = Robot::from_toml(text, "irb120.toml").expect("a robot file");
+        let mut arm = stiffarm_gap::robot::arm(&robot).expect("with numbers");
+        arm.base = Isometry3::new(Vector3::new(0.3, -0.2, 0.1), Vector3::new(0.4, 1.1, -0.7));
+        let kind = Kind::Pose { orientation: true };
+        let drawn =
+            Design { shape: Shape::Payload, poses: 5, repeats: 1, payload: 0.0, kind, seed: 1 };
+        let mut rows = drawn.rows(&arm).rows;
+        for row in &mut rows {
+            let sight = Sight { board: "plate".to_owned(), has_board: true, ..Sight::default() };
+            row.camera = Some(Box::new(sight));
+            row.offset = Some([0.2, -0.1, 0.3]);
+        }
+        let data = Measurements::new("lever.csv", kind, rows);
+        let mount = Isometry3::new(Vector3::new(0.1, 0.0, 0.2), Vector3::new(-0.5, 0.2, 0.9));
+        let unit = Unit::of("m", 1.0);
+        let experiment = Experiment {
+            data: &data,
+            arm: &arm,
+            placed: &arm,
+            mounts: vec![("plate", mount)],
+            markers: Vec::new(),
+            gaps: [&[], &[]],
+            shares: Vec::new(),
+            length: unit,
+            angle: unit,
+        };
+        const STEP: f64 = 1e-5;
+        for (row, joint) in data.rows.iter().flat_map(|row| (0..arm.dof()).map(move |j| (row, j))) {
+            let at = |by: f64| {
+                let mut moved = row.clone();
+                moved.q[joint] += by;
+                arm.frames(&moved.q)[arm.dof()] * arm.tool * mount * Point3::from([0.2, -0.1, 0.3])
+            };
+            let moved = (at(STEP) - at(-STEP)) / (2.0 * STEP);
+            let lever = lever(&experiment, row, joint);
+            // h²/6 of a metre, and rounding over h.
+            assert!((lever.fixed_rows::<3>(0) - moved).norm() < 1e-9, "{joint}: {lever} {moved}");
+        }
+    }
 }

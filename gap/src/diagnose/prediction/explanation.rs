@@ -1,7 +1,7 @@
 //! The models before and after a diagnosis: what predicts other measurements of the same arm, and
 //! what the corrected robot is made of.
 
-use nalgebra::Vector6;
+use nalgebra::{Isometry3, Vector6};
 use stiffarm_kernels::generic::Arm;
 
 use super::spread::Spread;
@@ -113,10 +113,9 @@ impl Explanation {
         &self.arm
     }
 
-    /// The same with its tool where what is measured sits: a board or a camera that is on the tool, of several the
-    /// first.
-    pub fn placed(&self) -> Arm {
-        Arm { tool: self.after.tool(0), ..self.arm.clone() }
+    /// The boards or cameras that are on the tool, and where they were fitted, in the tool frame.
+    pub fn mounts(&self) -> impl Iterator<Item = (&str, Isometry3<f64>)> {
+        self.stands.mounts.iter().map(String::as_str).zip(self.after.mounts.iter().copied())
     }
 
     /// What is known of other rows.

@@ -49,10 +49,11 @@ pub fn beside(arm: &Arm) -> Isometry3<f64> {
     Isometry3::from_parts(eye.map(|x| rounded(x, 1e6)).into(), turn).inverse()
 }
 
-/// A camera's rows with what is on the tool where the bench has it, and the arm where it stands before what is beside it.
+/// A camera's rows with what is on the tool and beside the arm where the bench has it, and the arm where it stands
+/// before the first of what is beside it.
 ///
 /// # Errors
-/// [`Fault`]: a bench that does not say, at least roughly, where camera and board are; or several of them.
+/// [`Fault`]: a bench that does not say, at least roughly, where camera and board are.
 pub fn in_view(arm: &Arm, data: &mut Measurements, bench: &Bench) -> Result<Arm, Fault> {
     let looks = bench.looks();
     let mut beside: Option<Isometry3<f64>> = None;
@@ -68,9 +69,9 @@ pub fn in_view(arm: &Arm, data: &mut Measurements, bench: &Bench) -> Result<Arm,
             return Err(Fault::new(found, "a bench that says roughly where both are", help));
         };
         sight.at = look.mounted;
-        if *beside.get_or_insert(look.beside) != look.beside {
-            let help = "simulate them one by one";
-            return Err(Fault::new("several things beside the arm", "one", help));
+        let first = *beside.get_or_insert(look.beside);
+        if first != look.beside {
+            sight.first = look.beside.inverse() * first;
         }
     }
     let beside = beside.unwrap_or_else(Isometry3::identity);

@@ -141,10 +141,10 @@ impl Bench {
         };
         row.camera = Some(Box::new(Sight {
             camera: camera.name.clone(),
-            board: corner.map_or(sight.board, |(board, _)| board.name.clone()),
+            board: corner.map_or_else(|| sight.board.clone(), |(board, _)| board.name.clone()),
             is_on_tool: camera.on == Mount::Tool,
             has_board: is_board,
-            at: sight.at,
+            ..sight
         }));
         let view = View::Camera { lens, target };
         row.aim = Some(Box::new(Aim {
