@@ -26,6 +26,10 @@ STIFFARM = os.environ.get("STIFFARM", str(ROOT / "target/release/stiffarm"))
 REPORTS = {
     "lin": ["lin_planar", ROOT / "robots/data/lin1991_table3.csv", "--rival", "ycd", "--rival", "ytd"],
     "ur10": [DATA / "ur10/robot.toml", DATA / "ur10/campaign_c.csv", "--nuisance", "base_frame,tool_frame"],
+    "sockets": [
+        "panda", DATA / "sockets/panda_1/front.csv", "--bench", DATA / "sockets/panda_1/bench.toml",
+        "--nuisance", "tool_frame", "--check", DATA / "sockets/panda_1/right.csv",
+    ],
     "tx40": [DATA / "logs/tx40.urdf", DATA / "logs/tx40.csv"],
     "so101": [ROOT / "cli/tests/cli/log/so101.toml", DATA / "logs/so101.csv"],
 }
