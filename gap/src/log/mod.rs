@@ -5,12 +5,12 @@
 //! 2. [`signal`](crate::signal): even samples, one filter, rates.
 //! 3. [`scene`]: rows, a joint at a time each; [`effects`]: what each effect does to them; what rigid links ask of
 //!    the drives, by their [base parameters](stiffarm_kernels::generic::BaseParameter), is fitted along.
-//! 4. [`search`]: which effects, by blocks of time that no fit has seen.
+//! 4. `search`: which effects, by blocks of time that no fit has seen.
 //! 5. [`report`]: what is said.
 //!
 //! Torque rows (`tau`, `i`) and position rows (`q_cmd`) go the same way; only the catalogue differs.
 
-pub mod bodies;
+pub(crate) mod bodies;
 pub mod corrected;
 pub mod effects;
 mod identifiability;
@@ -18,11 +18,11 @@ mod instrument;
 pub mod known;
 pub mod model;
 pub mod options;
-pub mod pace;
+pub(crate) mod pace;
 pub mod readings;
-pub mod rigid;
+pub(crate) mod rigid;
 pub mod scene;
-pub mod search;
+pub(crate) mod search;
 mod told;
 mod verdict;
 

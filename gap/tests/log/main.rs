@@ -1,6 +1,5 @@
 //! Logs of plants that are written down in closed form, and what is said of them.
 
-mod evidence;
 #[cfg(any(feature = "mcap", feature = "parquet"))]
 mod formats;
 mod instrument;

@@ -205,3 +205,6 @@ pub fn effective(used: &[f64], correlation: &[f64], signals: &Signals) -> f64 {
     let all = used.iter().zip(correlation).filter(|(rows, _)| **rows > 0.0);
     all.map(|(rows, time)| rows * signals.step() / (2.0 * time)).sum()
 }
+
+#[cfg(test)]
+mod tests;

@@ -2,18 +2,18 @@
 
 use std::collections::BTreeMap;
 
-use stiffarm_gap::effects::{Facts, InMotion, Law, Parameter, Quantity, Spot};
-use stiffarm_gap::log::scene::{Column, Domain, Scene};
-use stiffarm_gap::log::search::Search;
-use stiffarm_gap::log::search::case::{Case, Simple};
-use stiffarm_gap::log::search::dictionary::Dictionary;
-use stiffarm_gap::log::search::fit::Links;
-use stiffarm_gap::log::{Signal, TorqueSide};
-use stiffarm_gap::rng::{Rng, Stream};
-use stiffarm_gap::signal::Signals;
 use stiffarm_kernels::generic::Arm;
 
-use super::plant::{arm, log, noise};
+use super::Search;
+use super::case::{Case, Simple};
+use super::dictionary::Dictionary;
+use super::fit::Links;
+use crate::effects::{Facts, InMotion, Law, Parameter, Quantity, Spot};
+use crate::fixture::rigid;
+use crate::log::scene::{Column, Domain, Scene};
+use crate::log::{Clock, Log, Run, Signal, TorqueSide};
+use crate::rng::{Rng, Stream};
+use crate::signal::Signals;
 
 /// A column that has nothing to do with the torques: it stands in the log's commands.
 struct Unrelated;
@@ -48,16 +48,48 @@ const TIME: f64 = 0.5;
 /// By which nothing was chosen.
 const SEEDS: core::ops::Range<u64> = 20_000..20_500;
 
+/// Noise that is correlated over a time: AR(1).
+fn noise(rng: &mut Rng, time: f64) -> Vec<f64> {
+    let keep = (-STEP / time).exp();
+    let mut x = rng.normal();
+    let mut next = || {
+        x = keep * x + (1.0 - keep * keep).sqrt() * rng.normal();
+        x
+    };
+    (0..COUNT).map(|_| next()).collect()
+}
+
+fn log(signals: BTreeMap<Signal, Vec<Vec<f64>>>) -> Log {
+    let run = Run {
+        name: String::new(),
+        t: (0..COUNT).map(|k| STEP * k as f64).collect(),
+        signals,
+        payload: None,
+        contact: vec![false; COUNT],
+        holes: Vec::new(),
+        clock: Clock { period: STEP, jitter: 0.0, dropped: 0, repeated: 0 },
+    };
+    Log {
+        files: vec!["slow.csv".to_owned()],
+        samples: COUNT,
+        runs: vec![run],
+        side: Some(TorqueSide::Motor),
+        damaged: Vec::new(),
+        lacking: Vec::new(),
+        unknown: Vec::new(),
+    }
+}
+
 fn trial(seed: u64, arm: &Arm) -> (f64, f64) {
     let mut rng = Rng::new(seed, Stream::Noise);
-    let torque = vec![noise(&mut rng, COUNT, STEP, TIME, 1.0)];
+    let torque = vec![noise(&mut rng, TIME)];
     // It wanders over tens of seconds, as temperatures, loads and postures do.
-    let slow = vec![noise(&mut rng, COUNT, STEP, 20.0, 1.0)];
+    let slow = vec![noise(&mut rng, 20.0)];
     // A motion that repeats would be averaged.
     let q = |t: f64| (0.7 * t).sin() + 0.5 * (0.7 * core::f64::consts::SQRT_2 * t).sin();
     let q = vec![(0..COUNT).map(|k| q(STEP * k as f64)).collect()];
     let signals = [(Signal::Q, q), (Signal::Torque, torque), (Signal::QCmd, slow)];
-    let log = log(STEP, BTreeMap::from(signals));
+    let log = log(BTreeMap::from(signals));
     let mut signals = Signals::of(&log, Some(Signal::Torque), Some(4.0));
     signals.mark_ways(&[0.0]);
     let case = Case {
@@ -82,7 +114,7 @@ fn trial(seed: u64, arm: &Arm) -> (f64, f64) {
 /// correlation times in as many as the level says, 5 % of 500 and two standard errors.
 #[test]
 fn a_slow_column_that_is_unrelated_is_seldom_taken_for_an_effect() {
-    let arm = arm();
+    let arm = rigid();
     let trials: Vec<(f64, f64)> = SEEDS.map(|seed| trial(seed, &arm)).collect();
     let taken = trials.iter().filter(|(chance, _)| *chance <= 0.05).count();
     println!("{taken} of 500");
