@@ -48,7 +48,7 @@ pub fn run(words: &[&str], files: &[(&str, &str)]) -> String {
     let ended = stiffarm_cli::run(&host).expect("nobody asks for the end");
     ended.unwrap_or_else(|failure| panic!("{}", failure.text()));
     let told = host.take().written.into_iter().filter(|(name, _)| name == "-");
-    told.map(|(_, text)| text).collect()
+    String::from_utf8(told.flat_map(|(_, bytes)| bytes).collect()).expect("UTF-8")
 }
 
 fn without_comments(text: &str) -> String {
