@@ -184,7 +184,7 @@ fn instructions(name: &str, calls: usize) -> Option<u64> {
 
 /// The table as it is now.
 fn count() -> Option<String> {
-    let mut table = format!("# {}, instructions per call\n", env!("STIFFARM_RUSTC"));
+    let mut table = format!("# {}, instructions per call\n", stiffarm_bench::arms::RUSTC);
     for (name, _) in works() {
         let (none, all) = (instructions(name, 0)?, instructions(name, CALLS)?);
         let per_call = (all - none) as f64 / CALLS as f64;

@@ -5,49 +5,11 @@ use stiffarm_codegen::robot::{self, Robot, Value};
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::{Arm, Drive, Joint};
 
-macro_rules! arm {
-    ($name:ident) => {
-        /// One arm in both texts.
-        #[allow(missing_docs, clippy::all)]
-        pub mod $name {
-            /// Products and sums rounded one by one.
-            pub mod plain {
-                include!(concat!(env!("OUT_DIR"), "/", stringify!($name), "_plain.rs"));
-            }
-            /// Products fused into sums.
-            pub mod fused {
-                include!(concat!(env!("OUT_DIR"), "/", stringify!($name), "_fused.rs"));
-            }
-        }
-    };
-}
-
-arm!(planar_2r);
-arm!(ur10);
-arm!(kuka_kr240);
-arm!(iiwa14);
-arm!(panda);
-
-macro_rules! inverse {
-    ($($name:ident)+) => {
-        /// Arms with the inverse of their kinematics, and set-points under a load.
-        #[allow(missing_docs, clippy::all)]
-        pub mod inverse {
-            $(pub mod $name {
-                include!(concat!(env!("OUT_DIR"), "/", stringify!($name), "_inverse.rs"));
-            })+
-        }
-    };
-}
-
-inverse!(ur10 kuka_kr240 irb120 panda iiwa14 calibrated_ur10 calibrated_kuka);
-
-/// From which sides the joints of the calibrated arms come.
-pub const SIDES: [f64; 6] = [1.0, -1.0, 1.0, 1.0, -1.0, 1.0];
+pub use stiffarm_bench_arms::*;
 
 /// The robot files, in the order of the benches.
 pub const FILES: [(&str, &str); 5] = [
-    ("planar_2r", include_str!("../planar_2r.toml")),
+    ("planar_2r", include_str!("../../arms/planar_2r.toml")),
     ("ur10", include_str!("../../../robots/arms/ur10.toml")),
     ("kuka_kr240", include_str!("../../../robots/arms/kuka_kr240.toml")),
     ("iiwa14", include_str!("../../../robots/arms/iiwa14.toml")),
