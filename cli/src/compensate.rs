@@ -7,8 +7,8 @@ mod report;
 use std::path::{Path, PathBuf};
 
 use nalgebra::{UnitQuaternion, Vector3, Vector6};
+use stiffarm_compensate::reach::{Ended, Reached, Search, Target as Goal, reach_by_branches};
 use stiffarm_gap::Measurements;
-use stiffarm_gap::compensate::reach::{Ended, Reached, Search, Target as Goal, reach_by_branches};
 use stiffarm_gap::doubts;
 use stiffarm_gap::io::{Columns, ReadError, quoted};
 use stiffarm_gap::measurement::{Dimension, Kind, Layout, POSE_NAMES, Row};

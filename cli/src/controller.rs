@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 use nalgebra::Isometry3;
-use stiffarm_gap::controller::{
+use stiffarm_compensate::controller::{
     ControllerError, Holds, calibration, joint_limits, kinematics, lost, mastering, model, origins,
 };
 use stiffarm_gap::effects::Known;

@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 use stiffarm_gap::log::{Log, Names, Signal};
-use stiffarm_gap::motion::{Course, Fourier, Limits, Sampled};
-use stiffarm_gap::plant::motion::{Logged, Recording, Side, Stage};
 use stiffarm_gap::rng::{Rng, Stream};
 use stiffarm_kernels::generic::Arm;
+use stiffarm_plant::course::{Course, Fourier, Limits, Sampled};
+use stiffarm_plant::motion::{Logged, Recording, Side, Stage};
 
 use crate::host::Host;
 use crate::input::quantity;

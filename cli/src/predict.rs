@@ -7,10 +7,10 @@ use serde::Serialize;
 use stiffarm_gap::Measurements;
 use stiffarm_gap::effects::Catalogue;
 use stiffarm_gap::gap::{Statistics, row_gap};
-use stiffarm_gap::plant::csv;
 use stiffarm_gap::predicted::predicted;
 use stiffarm_gap::simulate::Reading;
 use stiffarm_gap::whole::Whole;
+use stiffarm_plant::csv;
 
 use super::Verdict;
 use crate::document::Unit;

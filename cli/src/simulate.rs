@@ -10,9 +10,9 @@ use stiffarm_gap::diagnose::Nuisance;
 use stiffarm_gap::effects::Known;
 use stiffarm_gap::instrument::{Bench, Seen, View};
 use stiffarm_gap::measurement::{Dimension, Kind};
-use stiffarm_gap::plant::design::{Design, Shape, beside, in_view, placed};
-use stiffarm_gap::plant::{Frames, Noise, Plant, Truth, csv};
 use stiffarm_kernels::generic::Arm;
+use stiffarm_plant::design::{Design, Shape, beside, in_view, placed};
+use stiffarm_plant::{Frames, Noise, Plant, Truth, csv};
 
 use super::Verdict;
 use crate::host::Host;

@@ -6,9 +6,9 @@ mod motion;
 use std::path::PathBuf;
 
 use stiffarm_gap::Options;
-use stiffarm_gap::plant::{self, Frames};
 use stiffarm_gap::whole::Whole;
 use stiffarm_kernels::generic::Arm;
+use stiffarm_plant::{Frames, effects};
 use stiffarm_study::withhold::{Campaign, Experiment, Plan, Report, with_findings, withhold};
 
 use super::Verdict;
@@ -104,10 +104,10 @@ pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
 fn report(args: &Args, host: &Host) -> Result<Report, Failure> {
     let effects = match &args.effects {
         Some(names) => {
-            let known: Vec<_> = plant::effects().into_iter().map(|e| (e.identifier(), e)).collect();
+            let known: Vec<_> = effects().into_iter().map(|e| (e.identifier(), e)).collect();
             named::effects(&known, names, "--effects: ")?
         }
-        None => plant::effects(),
+        None => effects(),
     };
     let multiple = args.multiple([8.0, 20.0])?;
     let source = args.robot.load(host)?;

@@ -7,12 +7,8 @@
 //!
 //! [`log`] does the same for an arm in motion: of a log of joint values with torques, currents or commands.
 //!
-//! [`mod@compensate`] finds the set-points with which a flexible arm stands where it should.
-//!
 //! This crate returns data and structured errors; it prints nothing.
 
-pub mod compensate;
-pub mod controller;
 pub mod corrected;
 pub mod diagnose;
 pub mod displacement;
@@ -24,12 +20,9 @@ pub mod gap;
 pub mod identify;
 pub mod log;
 pub mod mistakes;
-pub mod motion;
 pub mod performance;
-pub mod plant;
 pub mod pool;
 pub mod predicted;
-pub mod program;
 pub mod report;
 pub mod robot;
 pub mod shrink;

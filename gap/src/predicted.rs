@@ -72,40 +72,9 @@ fn reading(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fixture::{known, springy};
+    use crate::fixture::springy;
     use crate::instrument::{Aim, Seen};
-    use crate::plant::Plant;
-    use crate::plant::design::{Design, Shape};
-
-    /// Against the plant, which shares nothing with it: an effect of each kind, and all that is measured.
-    #[test]
-    fn it_is_what_a_plant_shows_without_noise() {
-        let arm = springy();
-        let effects = [
-            known("transmission_error", "joint 2", 2, &[3e-4, -1e-4]),
-            known("joint_hardening", "joint 2", 0, &[1e-12]),
-            known("backlash", "joint 3", 0, &[4e-4]),
-            known("settling_lag", "joint 1", 0, &[2e-4]),
-            known("drift", "base", 0, &[1e-8; 6]),
-        ];
-        let pose = Kind::Pose { orientation: true };
-        for kind in [pose, Kind::Displacement { components: [true; 6] }, Kind::Distance] {
-            let design =
-                Design { shape: Shape::Force, poses: 6, repeats: 1, payload: 10.0, kind, seed: 2 };
-            let rows = design.rows(&arm);
-            let plant = Plant::beyond(&arm, &effects, &[]).unwrap().exact(&rows).unwrap();
-            let found = predicted(Whole { arm: &arm, known: &effects }, &rows).unwrap();
-            let bare = predicted(&arm, &rows).unwrap();
-            for (k, (is, shown)) in found.rows.iter().zip(&plant.rows).enumerate() {
-                let off = (is.measured - shown.measured).amax();
-                assert!(off < 1e-10, "{kind:?} {k}: {off:e}");
-            }
-            let moved = |k: usize| (found.rows[k].measured - bare.rows[k].measured).amax();
-            // Of a difference only what grows with the load is left.
-            let least = if matches!(kind, Kind::Displacement { .. }) { 1e-6 } else { 1e-4 };
-            assert!((0..rows.rows.len()).any(|k| moved(k) > least), "{kind:?}");
-        }
-    }
+    use stiffarm_plant::design::{Design, Shape};
 
     #[test]
     fn what_nobody_knows_is_refused() {

@@ -6,10 +6,10 @@ use stiffarm_gap::diagnose::{Diagnosed, Nuisance};
 use stiffarm_gap::effects::Catalogue;
 use stiffarm_gap::gap::Statistics;
 use stiffarm_gap::measurement::Kind;
-use stiffarm_gap::plant::design::{Design, Shape};
-use stiffarm_gap::plant::{Frames, Noise, Plant, Truth};
 use stiffarm_gap::{Measurements, Options, diagnose_with};
 use stiffarm_kernels::generic::Arm;
+use stiffarm_plant::design::{Design, Shape};
+use stiffarm_plant::{Frames, Noise, Plant, Truth};
 use stiffarm_table::robot::Robot;
 
 /// Six joints, three of them parallel; springs where a real arm has them.

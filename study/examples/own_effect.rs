@@ -14,11 +14,11 @@ use stiffarm_gap::effects::{
     ParameterReport, Place, Quantity, Spot, Told,
 };
 use stiffarm_gap::measurement::{Kind, Measurements, Row};
-use stiffarm_gap::plant::design::{Design, Shape};
-use stiffarm_gap::plant::{Noise, Truth, blurred};
 use stiffarm_gap::simulate::Moment;
 use stiffarm_gap::{Diagnosis, Options, diagnose};
 use stiffarm_kernels::generic::Arm;
+use stiffarm_plant::design::{Design, Shape};
+use stiffarm_plant::{Noise, Truth, blurred};
 use stiffarm_study::withhold::exact;
 
 /// How far the joint stays behind per angle beyond the one at which the hose is taut; the form is that

@@ -9,8 +9,8 @@ mod fixture;
 pub mod withhold;
 
 use stiffarm_gap::{
-    diagnose, effects, instrument, log, measurement, motion, plant, report, rng, robot, simulate,
-    whole,
+    diagnose, effects, instrument, log, measurement, report, rng, robot, simulate, whole,
 };
 use stiffarm_infer as infer;
 use stiffarm_infer::parallel;
+use stiffarm_plant as plant;

@@ -8,8 +8,8 @@ use own_effect::{arm, catalogue, diagnosed, measured};
 use stiffarm_gap::Options;
 use stiffarm_gap::effects::{Over, Told};
 use stiffarm_gap::measurement::Kind;
-use stiffarm_gap::plant::Noise;
-use stiffarm_gap::plant::design::{Design, Shape};
+use stiffarm_plant::Noise;
+use stiffarm_plant::design::{Design, Shape};
 use stiffarm_study::withhold::{self, Campaign, Experiment, Plan, with_findings, withhold};
 
 #[test]

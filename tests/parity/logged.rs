@@ -10,10 +10,10 @@ use stiffarm::kernels::{Kernels, Output};
 use stiffarm_codegen::robot::Robot;
 use stiffarm_gap::log::corrected::{Corrected, corrected};
 use stiffarm_gap::log::{Log, LogDiagnosis, LogOptions, Model, Names, diagnosed};
-use stiffarm_gap::motion::{Fourier, Limits};
-use stiffarm_gap::plant::motion::{Logged, MotionTruth, MovingPlant, Recording, Side, Stage, csv};
 use stiffarm_gap::rng::{Rng, Stream};
 use stiffarm_gap::signal::Signals;
+use stiffarm_plant::course::{Fourier, Limits};
+use stiffarm_plant::motion::{Logged, MotionTruth, MovingPlant, Recording, Side, Stage, csv};
 
 use crate::compare::{CANCELLED, Draws, ForArm, deviation, known, read};
 

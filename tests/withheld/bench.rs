@@ -4,8 +4,8 @@
 use stiffarm_gap::Options;
 use stiffarm_gap::instrument::{Bench, Seen};
 use stiffarm_gap::measurement::Kind;
-use stiffarm_gap::plant::design::{Design, Shape, beside};
-use stiffarm_gap::plant::{Frames, Noise, effects};
+use stiffarm_plant::design::{Design, Shape, beside};
+use stiffarm_plant::{Frames, Noise, effects};
 use stiffarm_study::withhold::{Campaign, Experiment, Report, with_findings};
 
 use crate::arms::arm;

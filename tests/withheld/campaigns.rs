@@ -2,8 +2,8 @@
 
 use stiffarm_gap::Options;
 use stiffarm_gap::measurement::Kind;
-use stiffarm_gap::plant::design::{Design, Shape};
-use stiffarm_gap::plant::{Noise, effects};
+use stiffarm_plant::design::{Design, Shape};
+use stiffarm_plant::{Noise, effects};
 use stiffarm_study::withhold::{Campaign, Experiment, Report, with_findings};
 
 use crate::arms::arm;

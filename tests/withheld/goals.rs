@@ -49,13 +49,15 @@ const OF_CAMPAIGNS: &[Wish] = &[
 ];
 
 /// The interval of the shrink counts postures, and at six other sockets the shrink is further off than that: of it
-/// nothing is wanted. The zero of joint 1, which is drawn now and then, turns all unknown places and is not seen.
+/// nothing is wanted. The zero of joint 1, which is drawn now and then, turns all unknown places and is not seen. Of unknown
+/// effects as many are wanted as of logs: before plates and gauges a frame that stands elsewhere from the first row on and
+/// one that slips after some rows leave the same, but for those rows (docs/instruments.md, "Cannot see").
 const OF_BENCHES: &[Wish] = &[
     ("false alarms", [0.0, 0.05], |r| r.false_alarms),
     ("named first", [0.90, 1.0], |r| r.single.first_named),
     ("in the set", [0.97, 1.0], |r| r.single.in_set),
     ("both of a pair", [0.85, 1.0], |r| r.pairs.both_in_sets),
-    ("unknown flagged", [0.95, 1.0], |r| r.removed.flagged_of_open),
+    ("unknown flagged", [0.90, 1.0], |r| r.removed.flagged_of_open),
     ("at its joint", [0.80, 1.0], |r| r.removed.right_joint),
     ("gap closed", [0.90, 1.0], |r| r.after.within_1_2_of_noise),
 ];

@@ -10,10 +10,10 @@
 
 use stiffarm_gap::log::report::LogDiagnosis;
 use stiffarm_gap::log::{Log, LogOptions, diagnose};
-use stiffarm_gap::motion::{Fourier, Limits};
-use stiffarm_gap::plant::motion::{Logged, MovingPlant, Recording, Side, Stage};
 use stiffarm_gap::rng::{Rng, Stream};
 use stiffarm_kernels::generic::Arm;
+use stiffarm_plant::course::{Fourier, Limits};
+use stiffarm_plant::motion::{Logged, MovingPlant, Recording, Side, Stage};
 
 use crate::logs::arm;
 

@@ -12,10 +12,10 @@
 //! diagnosis does not know and could tell.
 
 use stiffarm_gap::log::LogOptions;
-use stiffarm_gap::motion::{Fourier, Limits};
-use stiffarm_gap::plant::motion::{LAWS, Law, Logged, Recording, Side, Stage};
 use stiffarm_gap::rng::{Rng, Stream};
 use stiffarm_kernels::generic::Arm;
+use stiffarm_plant::course::{Fourier, Limits};
+use stiffarm_plant::motion::{LAWS, Law, Logged, Recording, Side, Stage};
 use stiffarm_study::withhold::{Experiment, Motion, Report};
 
 use crate::arms::file;

@@ -13,12 +13,12 @@ use std::collections::BTreeMap;
 use stiffarm_gap::diagnose::Nuisance;
 use stiffarm_gap::measurement::{Kind, Measurements};
 use stiffarm_gap::mistakes::mistaken;
-use stiffarm_gap::plant::design::{Design, Shape};
-use stiffarm_gap::plant::{Frames, Noise, Plant, Truth};
 use stiffarm_gap::report::campaign::{Mistaken, Wrong};
 use stiffarm_gap::rng::{Rng, Stream};
 use stiffarm_gap::{Options, diagnose};
 use stiffarm_kernels::generic::{Arm, Convention};
+use stiffarm_plant::design::{Design, Shape};
+use stiffarm_plant::{Frames, Noise, Plant, Truth};
 
 use crate::arms::{arm, file};
 

@@ -14,10 +14,10 @@ use nalgebra::Vector3;
 use stiffarm_gap::log::report::{Finding, LogDiagnosis};
 use stiffarm_gap::log::{Log, LogOptions, Run, Signal, diagnose};
 use stiffarm_gap::measurement::Body;
-use stiffarm_gap::motion::{Fourier, Limits};
-use stiffarm_gap::plant::motion::{Logged, MotionTruth, MovingPlant, Recording, Side, Stage};
 use stiffarm_gap::rng::{Rng, Stream};
 use stiffarm_kernels::generic::Arm;
+use stiffarm_plant::course::{Fourier, Limits};
+use stiffarm_plant::motion::{Logged, MotionTruth, MovingPlant, Recording, Side, Stage};
 
 use crate::logs::arm;
 

@@ -4,9 +4,9 @@
 use stiffarm_gap::Options;
 use stiffarm_gap::diagnose::{Diagnosis, diagnose};
 use stiffarm_gap::measurement::Kind;
-use stiffarm_gap::plant::design::{Design, Shape};
-use stiffarm_gap::plant::{Noise, Plant, Truth};
 use stiffarm_kernels::generic::Arm;
+use stiffarm_plant::design::{Design, Shape};
+use stiffarm_plant::{Noise, Plant, Truth};
 
 use crate::arms::arm;
 

@@ -9,9 +9,9 @@
 //! `REPEATS_SEEDS=n` tries so many of each.
 
 use stiffarm_gap::log::{Log, LogOptions, diagnose};
-use stiffarm_gap::motion::{Course, Fourier, Limits, State};
-use stiffarm_gap::plant::motion::{Logged, MovingPlant, Recording, Side, Stage};
 use stiffarm_gap::rng::{Rng, Stream};
+use stiffarm_plant::course::{Course, Fourier, Limits, State};
+use stiffarm_plant::motion::{Logged, MovingPlant, Recording, Side, Stage};
 
 use crate::logs::arm;
 

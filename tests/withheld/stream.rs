@@ -3,8 +3,8 @@
 
 use stiffarm_gap::diagnose::Nuisance;
 use stiffarm_gap::measurement::{Kind, Measurements, Row};
-use stiffarm_gap::plant::{Frames, Noise, Plant, Truth};
 use stiffarm_gap::{Options, diagnose};
+use stiffarm_plant::{Frames, Noise, Plant, Truth};
 
 use crate::arms::arm;
 

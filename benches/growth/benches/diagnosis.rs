@@ -11,11 +11,11 @@ use std::time::Instant;
 
 use stiffarm_codegen::robot::Robot;
 use stiffarm_gap::measurement::Kind;
-use stiffarm_gap::plant::design::{Design, Shape};
-use stiffarm_gap::plant::{Noise, Plant, Truth};
 use stiffarm_gap::{Options, diagnose};
 use stiffarm_growth::chart::Chart;
 use stiffarm_growth::{ROBOT, alone};
+use stiffarm_plant::design::{Design, Shape};
+use stiffarm_plant::{Noise, Plant, Truth};
 
 /// Standard deviation of every coordinate, m and rad.
 const NOISE: f64 = 30e-6;

@@ -1,7 +1,7 @@
 //! Where the frames and tools of a program's points are.
 
 use nalgebra::Isometry3;
-use stiffarm_gap::program::{DEFAULT, Language, Place, Point, Program};
+use stiffarm_compensate::program::{DEFAULT, Language, Place, Point, Program};
 
 use super::program::remark;
 use crate::host::Host;

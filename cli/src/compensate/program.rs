@@ -4,10 +4,10 @@ use std::path::{Path, PathBuf};
 
 use nalgebra::{Isometry3, Vector6};
 use stiffarm_codegen::derive::Given;
-use stiffarm_gap::compensate::program::{Before, Controlled, Moved, Placed, Unmoved};
-use stiffarm_gap::compensate::reach::{Search, rigid};
+use stiffarm_compensate::points::{Before, Controlled, Moved, Placed, Unmoved};
+use stiffarm_compensate::program::{Change, Fault, File, Language, Left, Point, Program, edited};
+use stiffarm_compensate::reach::{Search, rigid};
 use stiffarm_gap::measurement::Dimension;
-use stiffarm_gap::program::{Change, Fault, File, Language, Left, Point, Program, edited};
 use stiffarm_gap::whole::{Situation, Whole};
 
 use super::Verdict;

@@ -1,8 +1,8 @@
 //! What became of the points of a program: a table, and its summary.
 
-use stiffarm_gap::compensate::program::{Moved, Unmoved};
+use stiffarm_compensate::points::{Moved, Unmoved};
+use stiffarm_compensate::program::{Left, Point, Program};
 use stiffarm_gap::io::{Columns, quoted};
-use stiffarm_gap::program::{Left, Point, Program};
 
 use super::rounded;
 use crate::input::quantity;

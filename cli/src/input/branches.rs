@@ -3,7 +3,7 @@
 use nalgebra::{Isometry3, Vector6};
 use stiffarm_codegen::derive::{AnyArm, AnyBranch, Given, any_arm};
 use stiffarm_codegen::robot::{ClosedForm, Refused};
-use stiffarm_gap::compensate::reach::Target;
+use stiffarm_compensate::reach::Target;
 use stiffarm_gap::whole::Situation;
 use stiffarm_kernels::Pose;
 

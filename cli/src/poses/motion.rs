@@ -1,9 +1,9 @@
 //! Commands of a motion whose log says most.
 
 use stiffarm_gap::effects::Spot;
-use stiffarm_gap::motion::{Course, commands};
-use stiffarm_gap::plant::motion::{Law, Logged, MotionTruth, Side};
 use stiffarm_kernels::generic::Arm;
+use stiffarm_plant::course::{Course, commands};
+use stiffarm_plant::motion::{Law, Logged, MotionTruth, Side};
 use stiffarm_study::excite::{Excitation, Plan, Purpose, excite};
 
 use super::Args;

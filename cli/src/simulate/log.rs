@@ -1,6 +1,6 @@
 //! The joint log of an arm that moves.
 
-use stiffarm_gap::plant::motion::{Logged, MotionTruth, MovingPlant, csv, known};
+use stiffarm_plant::motion::{Logged, MotionTruth, MovingPlant, csv, known};
 
 use super::Args;
 use crate::Verdict;

@@ -1,7 +1,7 @@
 //! The withheld check of joint logs.
 
 use stiffarm_gap::log::LogOptions;
-use stiffarm_gap::plant::motion::{LAWS, Law, Logged};
+use stiffarm_plant::motion::{LAWS, Law, Logged};
 use stiffarm_study::withhold::{Experiment, Motion, Report};
 
 use super::Args;

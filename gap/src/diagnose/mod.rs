@@ -35,6 +35,7 @@ mod verdict;
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
+pub use data::LARGEST;
 pub(crate) use data::Problem;
 pub(crate) use fit::{aligned, prior_penalty, refit, rigid};
 use options::LEAST_POSES;

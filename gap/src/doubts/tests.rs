@@ -2,8 +2,8 @@ use nalgebra::Isometry3;
 
 use super::*;
 use crate::fixture::{arm, kr240};
-use crate::plant::design::{Design, Shape};
-use crate::plant::{Frames, Noise, Plant, Truth};
+use stiffarm_plant::design::{Design, Shape};
+use stiffarm_plant::{Frames, Noise, Plant, Truth};
 
 const POSE: Kind = Kind::Pose { orientation: true };
 const MOVED: Kind = Kind::Displacement { components: [true; 6] };

@@ -30,8 +30,8 @@ fn unknown_effect(found: &str, known: &[&dyn AtRest]) -> String {
     format!("found the unknown effect `{found}`{near}, expected one of {}", all.join(", "))
 }
 
-/// Where it can act instead.
-pub(crate) fn cannot_act(effect: &dyn AtRest, found: &str, arm: &Arm) -> String {
+/// Of an effect that cannot act at the place `found`: where it can act instead.
+pub fn cannot_act(effect: &dyn AtRest, found: &str, arm: &Arm) -> String {
     let places: Vec<String> = effect.places(arm).iter().map(Place::to_string).collect();
     let name = effect.identifier();
     let which = match effect.acts_at() {

@@ -72,7 +72,7 @@ impl Forms {
     }
 
     /// What its number has to be, as a message says it.
-    pub(crate) fn expected(self, arm: &Arm) -> String {
+    pub fn expected(self, arm: &Arm) -> String {
         match self {
             Forms::Joints => format!("another joint, 1 to {}", arm.dof()),
             Forms::Orders { .. } => format!("an order of 1 to {MOST_ORDERS}"),

@@ -31,8 +31,7 @@ mod told;
 
 pub use stiffarm_table::robot::beyond::Quantity;
 
-pub use at_place::at_place;
-pub(crate) use at_place::cannot_act;
+pub use at_place::{at_place, cannot_act};
 pub use at_rest::{AtRest, Gives};
 pub use carrier::Carrier;
 pub use catalogue::*;

@@ -7,4 +7,3 @@
 mod effects;
 mod logs;
 mod measurements;
-mod programs;

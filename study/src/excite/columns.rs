@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use super::basis::{Basis, norm};
 use super::{Plan, Purpose};
 use crate::effects::{Place, Spot};
-use crate::motion::{Course, Fourier, State};
+use crate::plant::course::{Course, Fourier, State};
 use crate::plant::motion::{
     Law, Logged, MotionError, MotionTruth, MovingPlant, Recording, Stage, links,
 };

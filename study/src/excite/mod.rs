@@ -18,7 +18,7 @@ use columns::{Columns, Suspects};
 
 use crate::effects::Spot;
 use crate::infer::middle;
-use crate::motion::{Fourier, Limits};
+use crate::plant::course::{Fourier, Limits};
 use crate::plant::motion::{Law, Logged, MotionError};
 use crate::rng::{Rng, Stream};
 

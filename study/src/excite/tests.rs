@@ -4,7 +4,7 @@ use core::f64::consts::FRAC_PI_2;
 
 use super::*;
 use crate::fixture::rigid;
-use crate::motion::{Course, State};
+use crate::plant::course::{Course, State};
 use crate::plant::motion::{LAWS, Side};
 
 /// An elbow whose links have inertias and whose joints have limits.

@@ -10,7 +10,7 @@ use super::run::{self, Planted, known_to};
 use super::{Kind, Motion, Plan, WithholdError};
 use crate::effects::{Catalogue, Place, Spot};
 use crate::log::{Domain, Log, LogDiagnosis, LogOptions, diagnose};
-use crate::motion::Course;
+use crate::plant::course::Course;
 use crate::plant::motion::{Law, Logged, MotionError, MotionTruth, MovingPlant, known};
 use crate::rng::Rng;
 

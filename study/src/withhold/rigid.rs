@@ -3,7 +3,7 @@
 use stiffarm_kernels::generic::Arm;
 
 use crate::excite::Basis;
-use crate::motion::Course;
+use crate::plant::course::Course;
 use crate::plant::motion::links;
 
 /// Instants of each run at which it is asked.

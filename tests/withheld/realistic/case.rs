@@ -231,7 +231,7 @@ fn as_found(finding: &Finding) -> Found {
 
 /// Of each value of the truth whether the finding's interval covers it; a value that the finding
 /// does not have is 0 without doubt. The row of a jump is a number without an interval.
-fn covered(truth: &stiffarm_gap::plant::Truth, found: &Found) -> Vec<bool> {
+fn covered(truth: &stiffarm_plant::Truth, found: &Found) -> Vec<bool> {
     let values = truth.values.iter().filter(|(name, _)| name != "after");
     let is_covered = |(name, value): &(String, f64)| {
         let own = found.parameters.iter().find(|(own, _, _)| own == name);

@@ -5,9 +5,9 @@ use nalgebra::{DVector, Vector6};
 use stiffarm_codegen::robot::Robot;
 use stiffarm_gap::effects::{Draw, Effect, Place, Quantity};
 use stiffarm_gap::measurement::{Layout, Measurements};
-use stiffarm_gap::plant::{Frames, Instrument, Noise, Plant, Scatter, Truth, csv, effects};
 use stiffarm_gap::rng::{Rng, Stream};
 use stiffarm_kernels::generic::Arm;
+use stiffarm_plant::{Frames, Instrument, Noise, Plant, Scatter, Truth, csv, effects};
 use stiffarm_study::withhold::resized;
 
 use super::case::GEOMETRY;

@@ -3,8 +3,8 @@
 use nalgebra::{Isometry3, Vector6};
 use stiffarm_gap::gap::{Statistics, row_gap};
 use stiffarm_gap::measurement::{Measurements, Row};
-use stiffarm_gap::plant::Truth;
 use stiffarm_gap::simulate::{Actual, Reading, Sim, moments};
+use stiffarm_plant::Truth;
 
 use super::draw::Drawn;
 

@@ -5,9 +5,9 @@ use nalgebra::{DMatrix, DVector};
 use stiffarm_gap::effects::{BaseFrame, Effect, JointOffset, LinkGeometry, Place, ToolFrame};
 use stiffarm_gap::gap::row_gap;
 use stiffarm_gap::measurement::Measurements;
-use stiffarm_gap::plant::{Frames, Noise, Plant, Truth};
 use stiffarm_gap::simulate::Reading;
 use stiffarm_kernels::generic::Arm;
+use stiffarm_plant::{Frames, Noise, Plant, Truth};
 
 /// A small change of a frame or a row, m or rad: its columns are differences of the plant.
 const STEP: f64 = 1e-5;

@@ -4,11 +4,11 @@ use serde_json::Value;
 use stiffarm_codegen::robot::Robot;
 use stiffarm_gap::diagnose::{Diagnosed, Nuisance};
 use stiffarm_gap::measurement::Kind;
-use stiffarm_gap::plant::design::{Design, Shape};
-use stiffarm_gap::plant::{Frames, Noise, Plant, Truth};
 use stiffarm_gap::report::Report;
 use stiffarm_gap::{Measurements, Options, diagnose_with};
 use stiffarm_kernels::generic::Arm;
+use stiffarm_plant::design::{Design, Shape};
+use stiffarm_plant::{Frames, Noise, Plant, Truth};
 
 use super::{Campaign, Fitted};
 use crate::diagnose::{Accepted, Compared, Hashes, Provenance};

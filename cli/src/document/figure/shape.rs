@@ -171,7 +171,7 @@ mod tests {
     use stiffarm_codegen::robot::Robot;
     use stiffarm_gap::Measurements;
     use stiffarm_gap::measurement::Sight;
-    use stiffarm_gap::plant::design::{Design, Shape};
+    use stiffarm_plant::design::{Design, Shape};
 
     use super::*;
     use crate::document::Unit;

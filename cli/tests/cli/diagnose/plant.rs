@@ -2,9 +2,9 @@
 
 use serde_json::Value;
 use stiffarm_gap::measurement::Kind;
-use stiffarm_gap::plant::design::{Design, Shape};
-use stiffarm_gap::plant::{Frames, Noise, Plant, Truth, csv};
 use stiffarm_kernels::generic::Arm;
+use stiffarm_plant::design::{Design, Shape};
+use stiffarm_plant::{Frames, Noise, Plant, Truth, csv};
 
 use super::line;
 use crate::support::{Folder, arm_of, flat, has, json, list, number, read, stiffarm};

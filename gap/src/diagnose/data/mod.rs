@@ -20,4 +20,5 @@ pub(crate) use folds::Folds;
 pub(crate) use noise::Noise;
 pub(crate) use outliers::fitting;
 pub(crate) use precision::Precision;
-pub(crate) use problem::{LARGEST, Problem, Thing};
+pub use problem::LARGEST;
+pub(crate) use problem::{Problem, Thing};

@@ -20,7 +20,7 @@ use crate::spring::Spring;
 
 /// Readings, loads, places and gaps stay below this, N, N·m, m and rad: their squares, weighted and
 /// added up, are then finite.
-pub(crate) const LARGEST: f64 = 1e50;
+pub const LARGEST: f64 = 1e50;
 
 /// A gap below this, relative to the arm's reach, is rounding error.
 const ROUNDING: f64 = 1e-12;

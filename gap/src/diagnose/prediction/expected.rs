@@ -84,8 +84,8 @@ mod tests {
 
     use crate::diagnose::{Options, diagnose_with};
     use crate::measurement::Kind;
-    use crate::plant::design::{Design, Shape};
-    use crate::plant::{Noise, Plant, Truth};
+    use stiffarm_plant::design::{Design, Shape};
+    use stiffarm_plant::{Noise, Plant, Truth};
 
     /// Over many measurements of one arm the distance of the corrected model from the arm is the
     /// promised one on average, at postures near and far; the arm itself is another program's.

@@ -56,8 +56,8 @@ mod tests {
     use crate::diagnose::{Diagnosed, Nuisance, Options, diagnose_with};
     use crate::fixture::springy;
     use crate::measurement::{Kind, Measurements};
-    use crate::plant::design::{Design, Shape};
-    use crate::plant::{Noise, Plant};
+    use stiffarm_plant::design::{Design, Shape};
+    use stiffarm_plant::{Noise, Plant};
 
     /// An arm whose base leans in the measuring frame.
     const LEANS: [f64; 3] = [0.03, -0.02, 0.8];

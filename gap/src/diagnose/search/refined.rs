@@ -58,10 +58,10 @@ mod tests {
     use crate::diagnose::{Options, diagnose};
     use crate::fixture::{rigid, row, springy, table};
     use crate::measurement::{Kind, Row};
-    use crate::plant::design::{Design, Shape};
-    use crate::plant::{Noise, Plant, Truth};
     use crate::simulate::simulate;
     use nalgebra::Vector6;
+    use stiffarm_plant::design::{Design, Shape};
+    use stiffarm_plant::{Noise, Plant, Truth};
 
     #[test]
     fn a_jump_among_very_many_rows_is_placed_at_its_row() {

@@ -5,10 +5,7 @@ use stiffarm_kernels::generic::Arm;
 
 use super::{Answer, MeasuredError, Parameter, Question, Status, Unknown, identify_measured};
 use crate::diagnose::DiagnoseError;
-use crate::effects::Known;
-use crate::fixture::known;
 use crate::measurement::Measurements;
-use crate::plant::Plant;
 use crate::rng::{Rng, Stream};
 use crate::simulate::equilibrium;
 
@@ -256,39 +253,6 @@ fn what_cannot_be_answered_is_refused() {
     wrong.joints.pop();
     let error = answer(&wrong, &text, &Question::default()).unwrap_err();
     assert!(matches!(error, MeasuredError::Diagnose(DiagnoseError::Joints { .. })), "{error}");
-}
-
-/// Springs are found on top of what the robot file says beyond its table, and without it they are others:
-/// the measurements are a plant's, which shares nothing with the fit.
-#[test]
-fn springs_are_found_on_top_of_what_is_known() {
-    let arm = kr240();
-    let known = [
-        known("joint_ratio", "joint 3", 0, &[0.02]),
-        // About one axis: which of two turns comes first is a matter of definition.
-        known("base_compliance", "base", 0, &[4e-8, 0.0, 0.0, 0.0]),
-        known("joint_hardening", "joint 2", 0, &[2e-14]),
-        known("wrench_scale", "tool", 0, &[0.05]),
-    ];
-    let text = file(&arm, &TRANSLATIONS, 10, 0.0, 5, &LOADS);
-    let layout = crate::fixture::layout(6);
-    let rows = Measurements::from_bytes("run.csv", text.as_bytes(), &layout).unwrap();
-    let data = Plant::beyond(&arm, &known, &[]).unwrap().exact(&rows).unwrap();
-    let worst = |known: &[Known]| {
-        let question = Question { known: known.to_vec(), ..Question::default() };
-        let found = identify_measured(&rigid(&arm), &data, &question, &|_| {}).unwrap();
-        let off = |(j, joint): (usize, &stiffarm_kernels::generic::Joint)| {
-            (found.value(Unknown::Joint(j + 1)).unwrap() / joint.compliance - 1.0).abs()
-        };
-        arm.joints.iter().enumerate().map(off).fold(0.0, f64::max)
-    };
-    assert!(worst(&known) < 1e-6, "{}", worst(&known));
-    for left_out in 0..known.len() {
-        let mut others = known.to_vec();
-        others.remove(left_out);
-        // A thousand times what the fit leaves with all of them.
-        assert!(worst(&others) > 1e-3, "{left_out}: {}", worst(&others));
-    }
 }
 
 /// All intervals hold the truth of 95 in 100 springs each; of six springs one does not in every fourth campaign.
