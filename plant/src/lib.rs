@@ -13,8 +13,6 @@
 //! and link, which yield to what loads them. A row `i` is `Rz Tz Tx Rx` (standard: joint first) or
 //! `Rx Tx Rz Tz` (modified: joint and beam in between).
 
-#[cfg(test)]
-mod agreement;
 mod assemble;
 mod balance;
 mod campaign;

@@ -191,6 +191,8 @@ mod tests {
         assert_eq!(Unit::of("m", 1.5e-4).with_unit(1.234e-4), "123 µm");
         assert_eq!(Unit::of("m", 1e-3).down_to(3.4e-5).change(1e-3, 3.4e-5), "1.000 → 0.034 mm");
         assert_eq!(Unit::of("1", 0.02).interval(0.02, [0.018, 0.022]), "2.00 % [1.80 to 2.20]");
+        let undecided = Unit::of("rad", 0.295).interval(-4e-12, [-0.295, 0.295]);
+        assert_eq!(undecided, "0 mrad [−295 to 295]");
         assert_eq!(Unit::of("rows", 3.0).interval(3.0, [2.0, 4.0]), "3.0 [2.0 to 4.0]");
         let stiffness = imperial(true)[0].interval(2.42e4, [2.25e4, 2.61e4]);
         assert_eq!(stiffness, "2.14e5 in·lbf/rad [1.99e5 to 2.31e5]");

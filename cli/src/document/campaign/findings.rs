@@ -99,10 +99,12 @@ impl Campaign<'_> {
         Some(imperial(is_revolute(joint)))
     }
 
-    /// The unit for all parameters of a finding that have the unit of `p`.
+    /// The unit for all parameters of a finding that have the unit of `p`, and for the intervals of those that the data
+    /// hardly decide.
     pub(super) fn size<'a>(&self, finding: &Finding, p: &'a Parameter) -> Unit<'a> {
         let alike = finding.parameters.iter().filter(|other| other.unit == p.unit);
-        let most = alike.map(|other| other.value.abs()).fold(0.0, f64::max);
+        let half = |[low, high]: [f64; 2]| (high - low).abs() / 2.0;
+        let most = alike.map(|other| other.value.abs().max(half(other.ci95))).fold(0.0, f64::max);
         self.unit(finding, &p.unit, most)
     }
 
