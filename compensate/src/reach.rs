@@ -1,5 +1,5 @@
 //! Set-points of any serial arm: joint values within the limits at which the arm, at equilibrium
-//! under its load and weights ([`crate::simulate`]), stands at a target.
+//! under its load and weights ([`stiffarm_gap::simulate`]), stands at a target.
 //!
 //! Levenberg's and Marquardt's steps on what the loaded tool misses, along the motions that the
 //! joints give the loaded tool. A joint at its limit that would have
