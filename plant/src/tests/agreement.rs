@@ -11,6 +11,7 @@ use stiffarm_kernels::generic::Arm;
 use crate::design::{Design, Shape};
 use crate::effects::Known;
 use crate::fixture::{known, row, springy, table};
+use crate::instrument::Seen;
 use crate::measurement::Kind;
 use crate::{Plant, Truth};
 
@@ -149,5 +150,27 @@ fn springs_are_found_on_top_of_what_is_known() {
         others.remove(left_out);
         // A thousand times what the fit leaves with all of them.
         assert!(worst(&others) > 1e-3, "{left_out}: {}", worst(&others));
+    }
+}
+
+/// Of instruments whose bench is unknown, each: all springs, to what a fifth of all deflections leaves of the second order.
+#[test]
+fn springs_are_found_on_a_bench() {
+    let arm = kr240();
+    let mut stiff = arm.clone();
+    stiff.joints.iter_mut().for_each(|joint| joint.compliance *= 0.8);
+    for seen in [Seen::Point, Seen::Plane, Seen::Distance, Seen::Direction, Seen::Level] {
+        let kind = Kind::Pose { orientation: true };
+        let design =
+            Design { shape: Shape::Force, poses: 60, repeats: 1, payload: 150.0, kind, seed: 5 };
+        let data =
+            Plant::beyond(&arm, &[], &[]).unwrap().exact(&design.read_by(&arm, seen)).unwrap();
+        let found = identify_measured(&stiff, &data, &Question::default(), &|_| {}).unwrap();
+        for (j, joint) in arm.joints.iter().enumerate() {
+            let off = found.value(Unknown::Joint(j + 1)).unwrap() / joint.compliance - 1.0;
+            // A level does not see a turn about the vertical.
+            let is_seen = seen != Seen::Level || j > 0;
+            assert!(!is_seen || off.abs() < 1e-4, "{seen:?}, joint {}: {off}", j + 1);
+        }
     }
 }

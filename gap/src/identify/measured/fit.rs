@@ -9,14 +9,15 @@ use stiffarm_kernels::generic::Arm;
 use super::choose::{Choice, choose};
 use super::{Answer, Gap, MeasuredError, Noise, Parameter, Question, Status, Uncertainty, Unknown};
 use crate::diagnose::data::{Folds, Problem};
-use crate::diagnose::fit::{Fit, Model, normal_equations, refit, squares, step};
+use crate::diagnose::fit::{Fit, Fitted, Model, aligned, normal_equations, refit, squares, step};
 use crate::diagnose::search::{Explained, Search};
 use crate::diagnose::{DiagnoseError, Options};
+use crate::effects::Known;
 use crate::gap::Statistics;
 use crate::identify::pull::{Pull, pull};
 use crate::infer::constants::SIGNIFICANT;
 use crate::infer::{Basis, Observations, students_t, two_sided};
-use crate::measurement::Measurements;
+use crate::measurement::{Measurements, Row};
 
 /// The fit has not come to its end if another step promises more than this part of what there was.
 const SETTLED: f64 = 1e-6;
@@ -38,11 +39,10 @@ pub fn identify_measured(
     question: &Question,
     done: &dyn Fn(f64),
 ) -> Result<Answer, MeasuredError> {
-    let data = &Measurements { sim_given: [false; 6], ..data.clone() };
-    let options = &question.options(data);
-    let unknowns = Unknown::all(arm, question);
-    let problem = &problem(arm, data, options)?;
     let file = || data.file.clone();
+    if data.by_camera || data.by_board {
+        return Err(MeasuredError::Camera { file: file() });
+    }
     if let Some(row) = data.rows.iter().find(|row| row.offset.is_none()) {
         let marker = row.marker.clone().unwrap_or_default();
         return Err(MeasuredError::UnknownOffset { file: file(), line: row.line, marker });
@@ -50,15 +50,16 @@ pub fn identify_measured(
     if data.rows.iter().all(|row| row.wrench == Vector6::zeros()) {
         return Err(MeasuredError::NoLoad { file: file() });
     }
-    if problem.numbers() == 0 {
-        return Err(MeasuredError::OneLoadEach { file: file() });
-    }
+    let options = &question.options(data);
+    let unknowns = Unknown::all(arm, question);
+    let told = Measurements { sim_given: [false; 6], ..data.clone() };
+    let data = &with_bench(arm, told, options, &unknowns)?;
+    let problem = &problem(arm, data, options)?;
     let folds = &Folds::deal(data, options)?;
     let search = Search { problem, folds, candidates: &[], options, progress: &|_| {} };
     let nominal = Model::nominal(problem);
     let choice = chosen(&search, &nominal, &unknowns)?;
-    let found = choice.found.iter().map(|k| unknowns[*k].added(arm, 0.0)).collect();
-    let now = search.begin(Model { found, ..nominal.clone() })?;
+    let now = fitted(&search, &nominal, &unknowns, &choice)?;
     let before = nominal.predict(problem, None)?.gaps;
     let (_, promised) = step(problem, &now.fit, &now.weights);
     if promised > SETTLED * (1.0 + squares(problem, &before, &now.weights)) {
@@ -75,22 +76,66 @@ pub fn identify_measured(
     Ok(answer(&search, &now, &unknowns, &choice, question, gap))
 }
 
-/// Poses with a constant of their own for each marker.
+/// What is unknown of the bench, where the arm with its springs shows it: what it is still off is the same under all
+/// loads of a pose, to first order, and taken by that pose's constant. The springs are found twice: first before a bench
+/// that the springs of the robot file place, where its tilts turn the deflections by what the springs are off.
+fn with_bench(
+    arm: &Arm,
+    data: Measurements,
+    options: &Options,
+    unknowns: &[Unknown],
+) -> Result<Measurements, MeasuredError> {
+    let is_unknown = |row: &Row| row.aim.as_ref().is_some_and(|aim| !aim.free.is_empty());
+    if !data.rows.iter().any(is_unknown) {
+        return Ok(data);
+    }
+    let first = &placed(arm, data.clone(), options)?;
+    let (problem, folds) = (&problem(arm, first, options)?, &Folds::deal(first, options)?);
+    let search = Search { problem, folds, candidates: &[], options, progress: &|_| {} };
+    let nominal = Model::nominal(problem);
+    let choice = chosen(&search, &nominal, unknowns)?;
+    let springs = fitted(&search, &nominal, unknowns, &choice)?.fit.model.found.into_iter();
+    let as_known = |Fitted { effect, spot, values, .. }: Fitted| Known {
+        effect,
+        spot,
+        values,
+        session: None,
+        at: Default::default(),
+    };
+    let known = options.known.iter().cloned().chain(springs.map(as_known)).collect();
+    Ok(placed(arm, data, &Options { known, ..options.clone() })?)
+}
+
+/// The rows with the bench where the arm shows it, which is known from here on.
+fn placed(
+    arm: &Arm,
+    mut data: Measurements,
+    options: &Options,
+) -> Result<Measurements, DiagnoseError> {
+    let problem = Problem::new(arm, &data, options)?;
+    let bench = refit(&problem, aligned(&problem)?, None, &problem.mask)?.model.bench;
+    let bench_of = problem.bench_of;
+    for (row, number) in data.rows.iter_mut().zip(bench_of) {
+        if let (Some(aim), Some(number)) = (&mut row.aim, number) {
+            (aim.view, aim.free) = (bench[number].pointed(&aim.view), &[]);
+        }
+    }
+    Ok(data)
+}
+
+/// Poses with a constant of their own for each marker and each thing of the bench.
 fn problem<'a>(
     arm: &'a Arm,
     data: &'a Measurements,
     options: &Options,
 ) -> Result<Problem<'a>, DiagnoseError> {
     let mut problem = Problem::new(arm, data, options)?;
-    if let Some(thing) = problem.bench.first() {
-        let point = thing.aim.full_name();
-        return Err(DiagnoseError::NewPoint { file: data.file.clone(), point });
-    }
     if !data.kind.is_difference() {
         let mut place = HashMap::new();
         for (index, row) in data.rows.iter().enumerate() {
             let constants = &mut problem.constants;
-            let at = *place.entry((row.group, &row.marker)).or_insert(constants.len());
+            let thing = row.aim.as_deref().map(|aim| (aim.seen, &aim.name));
+            let at = *place.entry((row.group, &row.marker, thing)).or_insert(constants.len());
             if at == constants.len() {
                 constants.push(Vec::new());
             }
@@ -108,6 +153,9 @@ fn chosen(
     unknowns: &[Unknown],
 ) -> Result<Choice, MeasuredError> {
     let problem = search.problem;
+    if problem.numbers() == 0 {
+        return Err(MeasuredError::OneLoadEach { file: problem.data.file.clone() });
+    }
     let rigid = |unknown: &Unknown| match unknown {
         Unknown::Joint(_) => unknown.added(problem.arm, -unknown.file(problem.arm)),
         Unknown::Link(_) | Unknown::Base(_) => unknown.added(problem.arm, 0.0),
@@ -128,6 +176,17 @@ fn chosen(
         return Err(MeasuredError::TooFew { file, rows, unknowns });
     }
     Ok(choice)
+}
+
+/// The springs that were chosen, from the robot file's.
+fn fitted(
+    search: &Search<'_, '_>,
+    nominal: &Model,
+    unknowns: &[Unknown],
+    choice: &Choice,
+) -> Result<Explained, DiagnoseError> {
+    let found = choice.found.iter().map(|k| unknowns[*k].added(search.problem.arm, 0.0)).collect();
+    search.begin(Model { found, ..nominal.clone() })
 }
 
 /// The gap of each row by what is found without its fold.

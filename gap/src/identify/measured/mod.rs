@@ -7,7 +7,8 @@
 //! # Poses
 //! Of a file of poses only the differences *within* one pose are used: each pose (and each marker
 //! in it) has an unknown constant, so that an arm that stands elsewhere than its table says does no
-//! harm, and what the weights do to the foundation is in all of them. A pose that was measured
+//! harm, and what the weights do to the foundation is in all of them; so has what is read at each thing of a bench, whose
+//! unknown place is fitted first. A pose that was measured
 //! under one load only says nothing.
 //!
 //! # What is held
@@ -191,6 +192,11 @@ impl Parameter {
 pub enum MeasuredError {
     #[error(transparent)]
     Diagnose(#[from] DiagnoseError),
+    #[error(
+        "{file}: found what a camera shows, expected poses or what is read on a bench: where the camera stands is unknown, \
+         and `stiffarm diagnose` finds that and the springs"
+    )]
+    Camera { file: String },
     #[error("{file}: found no load in any row, expected fx … mz: springs show under a load only")]
     NoLoad { file: String },
     #[error(
