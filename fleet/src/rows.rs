@@ -7,7 +7,7 @@ use arrow::array::{Array, ArrayRef, AsArray, StructArray};
 use arrow::compute::cast;
 use arrow::datatypes::{DataType, FieldRef, Float64Type, Int64Type};
 use datafusion::common::{Result, exec_err};
-use stiffarm_plant::{number, quoted};
+use stiffarm_gap::io::{number, quoted};
 
 /// The column that says where a row stands in its file, and is no part of it.
 pub const ORDER: &str = "row";
