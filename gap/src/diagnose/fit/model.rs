@@ -12,7 +12,7 @@ use crate::diagnose::data::{LARGEST, Problem, Thing};
 use crate::diagnose::normal_equations::Candidate;
 use crate::diagnose::options::{DiagnoseError, Nuisance};
 use crate::displacement::Displacement;
-use crate::effects::{Effect, JOINT_SPRING, Place, Scene, Spot};
+use crate::effects::{Depends, Effect, JOINT_SPRING, Known, Place, Scene, Spot, file_name};
 use crate::gap::row_gap;
 use crate::instrument::View;
 use crate::parallel;
@@ -38,6 +38,18 @@ impl Fitted {
     /// Whether it is the spring of a joint (from 0).
     pub(crate) fn is_spring_of(&self, joint: usize) -> bool {
         self.effect == JOINT_SPRING && self.spot == Spot::at(Place::Joint(joint + 1))
+    }
+
+    /// As an effect that is known; what happened in the session of `file` is there alone.
+    pub(crate) fn known(&self, file: &str) -> Known {
+        let session = || file_name(file).to_owned();
+        Known {
+            effect: self.effect,
+            spot: self.spot,
+            values: self.values.clone(),
+            session: (self.effect.depends() == Depends::Session).then(session),
+            at: Default::default(),
+        }
     }
 }
 

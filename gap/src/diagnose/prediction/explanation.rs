@@ -9,7 +9,7 @@ use crate::diagnose::data::{Problem, Thing};
 use crate::diagnose::fit::{Fitted, Model, fitted_thing};
 use crate::diagnose::options::{DiagnoseError, Nuisance, Options};
 use crate::diagnose::report::Cover;
-use crate::effects::{Catalogue, Depends, Known, file_name};
+use crate::effects::{Catalogue, Depends, Known};
 use crate::measurement::{Base, Kind, Measurements, Stands};
 
 /// What a diagnosis knows of the arm.
@@ -80,15 +80,7 @@ impl Explanation {
 
     /// The effects that were found, beyond those that were known.
     pub fn found(&self) -> Vec<Known> {
-        let session = || file_name(&self.file).to_owned();
-        let each = self.after.found.iter().map(|f| Known {
-            effect: f.effect,
-            spot: f.spot,
-            values: f.values.clone(),
-            session: (f.effect.depends() == Depends::Session).then(session),
-            at: Default::default(),
-        });
-        each.collect()
+        self.after.found.iter().map(|found| found.known(&self.file)).collect()
     }
 
     /// The effects that were known: those of the robot file.

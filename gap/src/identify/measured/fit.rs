@@ -9,10 +9,9 @@ use stiffarm_kernels::generic::Arm;
 use super::choose::{Choice, choose};
 use super::{Answer, Gap, MeasuredError, Noise, Parameter, Question, Status, Uncertainty, Unknown};
 use crate::diagnose::data::{Folds, Problem};
-use crate::diagnose::fit::{Fit, Fitted, Model, aligned, normal_equations, refit, squares, step};
+use crate::diagnose::fit::{Fit, Model, aligned, normal_equations, refit, squares, step};
 use crate::diagnose::search::{Explained, Search};
 use crate::diagnose::{DiagnoseError, Options};
-use crate::effects::Known;
 use crate::gap::Statistics;
 use crate::identify::pull::{Pull, pull};
 use crate::infer::constants::SIGNIFICANT;
@@ -94,15 +93,9 @@ fn with_bench(
     let search = Search { problem, folds, candidates: &[], options, progress: &|_| {} };
     let nominal = Model::nominal(problem);
     let choice = chosen(&search, &nominal, unknowns)?;
-    let springs = fitted(&search, &nominal, unknowns, &choice)?.fit.model.found.into_iter();
-    let as_known = |Fitted { effect, spot, values, .. }: Fitted| Known {
-        effect,
-        spot,
-        values,
-        session: None,
-        at: Default::default(),
-    };
-    let known = options.known.iter().cloned().chain(springs.map(as_known)).collect();
+    let springs = fitted(&search, &nominal, unknowns, &choice)?.fit.model.found;
+    let springs = springs.iter().map(|spring| spring.known(&data.file));
+    let known = options.known.iter().cloned().chain(springs).collect();
     Ok(placed(arm, data, &Options { known, ..options.clone() })?)
 }
 

@@ -7,7 +7,7 @@
 //! # Poses
 //! Of a file of poses only the differences *within* one pose are used: each pose (and each marker
 //! in it) has an unknown constant, so that an arm that stands elsewhere than its table says does no
-//! harm, and what the weights do to the foundation is in all of them; so has what is read at each thing of a bench, whose
+//! harm, and what the weights do to the foundation is in all of them. So has each thing of a bench in each pose; its
 //! unknown place is fitted first. A pose that was measured
 //! under one load only says nothing.
 //!
