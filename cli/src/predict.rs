@@ -7,7 +7,8 @@ use serde::Serialize;
 use stiffarm_gap::Measurements;
 use stiffarm_gap::effects::Catalogue;
 use stiffarm_gap::gap::{Statistics, row_gap};
-use stiffarm_gap::predicted::predicted;
+use stiffarm_gap::measurement::Row;
+use stiffarm_gap::predicted::{predicted, predicted_on_bench};
 use stiffarm_gap::simulate::Reading;
 use stiffarm_gap::whole::Whole;
 use stiffarm_plant::csv;
@@ -28,8 +29,9 @@ Examples:
   stiffarm predict found.json run2.csv
   stiffarm predict better.toml plan.csv --csv expected.csv
 
-DATA is a measurement file, or a plan whose measured cells are empty. Nothing is fitted: base, tool and
-markers stand where the robot file has them. Of a diagnosis (JSON) the rows beyond the joint ranges and
+DATA is a measurement file, or a plan whose measured cells are empty. Base, tool and markers stand where the
+robot file has them. What is unknown of the bench (where a socket or a camera is, the zero of a gauge) is fitted to
+DATA, and the gap is what that leaves; nothing else is fitted. Of a diagnosis (JSON) the rows beyond the joint ranges and
 loads of its data, and those at which what was fitted is known less well than at any of these (their
 leverage is larger), are counted and not judged.";
 
@@ -69,7 +71,8 @@ pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     let arm = source.arm()?;
     let layout = args.bench.layout(&source, host)?;
     let plan = data::read_plan(&args.data, &layout, host)?;
-    let is_measured = plan.rows.iter().any(|row| row.measured != Vector6::zeros());
+    let is_read = |row: &Row| row.measured != Vector6::zeros() || row.reads_joints_alone();
+    let is_measured = plan.rows.iter().any(is_read);
     // A row with a hole is no measurement, and is left out and said.
     let data = if is_measured { data::read(&args.data, &layout, host)? } else { plan };
     if !is_measured && args.csv.is_none() {
@@ -78,7 +81,13 @@ pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     }
     data::doubted(&arm, &data, &[], host);
     let whole = Whole { arm: &arm, known: &source.known };
-    let found = predicted(whole, &data)?;
+    let [data, found] = match is_measured {
+        true => predicted_on_bench(whole, data)?,
+        false => {
+            let found = predicted(whole, &data)?;
+            [data, found]
+        }
+    };
     let trusted = source.trust.as_ref().map(|t| t.holds(whole, &Catalogue::default(), &data));
     let trusted = trusted.transpose()?;
     let covers = |number: &usize| {
@@ -89,14 +98,16 @@ pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
         let found = Reading::from_vector(&found.rows[number].measured);
         row_gap(&data, &data.rows[number], &found)
     };
-    let gaps: Vec<Vector6<f64>> = (0..data.rows.len()).filter(covers).map(gap).collect();
+    let inside: Vec<usize> = (0..data.rows.len()).filter(covers).collect();
+    let gaps: Vec<Vector6<f64>> = inside.iter().map(|number| gap(*number)).collect();
+    let judged = inside.iter().map(|number| &data.rows[*number]).zip(&gaps);
     let written = Written {
         stiffarm: env!("CARGO_PKG_VERSION"),
         robot: &source.robot.name,
         file: &data.file,
         rows: data.rows.len(),
         inside: gaps.len(),
-        gap: (is_measured && !gaps.is_empty()).then(|| Statistics::of(&gaps)),
+        gap: (is_measured && !gaps.is_empty()).then(|| Statistics::of_rows(data.kind, judged)),
     };
     let comment = format!("{}, predicted: {}", source.robot.name, data.file);
     host.put(&args.csv, || Ok(csv(&arm, &found, &[comment])))?;
@@ -122,7 +133,11 @@ fn screen(source: &Source, data: &Measurements, written: &Written<'_>) -> String
         });
         return text;
     };
-    let components = data.kind.components();
+    for (kind, size) in &gap.kinds {
+        let rms = Unit::of(&size.unit, size.rms).with_unit(size.rms);
+        text.push_str(&format!("The error of the {kind} readings is {rms} rms.\n"));
+    }
+    let components = data.kind.components().map(|is| is && gap.kinds.is_empty());
     if components[..3].contains(&true) {
         let size = Unit::of("m", gap.position_max);
         text.push_str(&format!(

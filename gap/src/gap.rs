@@ -56,17 +56,21 @@ pub struct OfKind {
 }
 
 impl Statistics {
-    /// Of rows with their gaps.
+    /// Of rows with their gaps; of a bench lengths and angles each over the rows that read them.
     pub fn of_rows<'g>(
         kind: Kind,
         rows: impl IntoIterator<Item = (&'g Row, &'g Vector6<f64>)>,
     ) -> Statistics {
         let (rows, gaps): (Vec<&Row>, Vec<&Vector6<f64>>) = rows.into_iter().unzip();
-        let all = Statistics::of(gaps.iter().copied());
-        let Kind::Bench { .. } = kind else { return all };
+        let Kind::Bench { .. } = kind else { return Statistics::of(gaps) };
+        let read = |first: usize| {
+            let both = rows.iter().zip(gaps.iter().copied());
+            both.filter(move |(row, _)| row.reads(kind, first)).map(|(_, gap)| gap)
+        };
+        let (lengths, angles) = (Statistics::of(read(0)), Statistics::of(read(3)));
         let mut sizes: BTreeMap<String, (Vec<f64>, &'static str)> = BTreeMap::new();
         for (aim, gap) in
-            rows.iter().zip(gaps).filter_map(|(row, gap)| Some((row.aim.as_ref()?, gap)))
+            rows.iter().zip(&gaps).filter_map(|(row, gap)| Some((row.aim.as_ref()?, gap)))
         {
             let (part, unit) = aim.view.unit();
             sizes
@@ -78,7 +82,8 @@ impl Statistics {
         let of_kind = |(kind, (sizes, unit)): (String, (Vec<f64>, &'static str))| {
             (kind, OfKind { rms: rms(&sizes), unit: unit.into() })
         };
-        Statistics { kinds: sizes.into_iter().map(of_kind).collect(), ..all }
+        let kinds = sizes.into_iter().map(of_kind).collect();
+        Statistics { rotation_rms: angles.rotation_rms, kinds, ..lengths }
     }
 
     /// Of one gap per row.

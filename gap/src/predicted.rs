@@ -4,6 +4,7 @@ use nalgebra::{Isometry3, Vector6};
 use stiffarm_kernels::Unstable;
 
 use crate::diagnose::DiagnoseError;
+use crate::diagnose::fit::{self, Placed};
 use crate::effects::Known;
 use crate::measurement::{Kind, Measurements, Row};
 use crate::parallel;
@@ -37,19 +38,49 @@ pub fn predicted<'a>(
     Ok(Measurements { rows, sim_given: [false; 6], ..data.clone() })
 }
 
+/// Rows that were measured, with what is unknown of the bench fitted to them (places of sockets, planes and centres,
+/// zeros of gauges and levels, a lens, where a camera and its board are), and the same as [`predicted`], so that the gap
+/// between both is what the arm leaves. Other frames stay as the file has them.
+///
+/// # Errors
+/// As [`predicted`].
+pub fn predicted_on_bench<'a>(
+    whole: impl Into<Whole<'a>>,
+    data: Measurements,
+) -> Result<[Measurements; 2], DiagnoseError> {
+    let whole = whole.into();
+    if !data.by_camera && !data.rows.iter().any(Row::reads_unknown) {
+        let read = predicted(whole, &data)?;
+        return Ok([data, read]);
+    }
+    data.rows.iter().try_for_each(|row| has_marker(&data, row))?;
+    let Placed { data, read } = fit::placed(whole.arm, data, whole.known)?;
+    let rows = data.rows.iter().zip(read);
+    let rows = rows.map(|(row, measured)| Row { measured, sim: None, ..row.clone() }).collect();
+    let read = Measurements { rows, ..data.clone() };
+    Ok([data, read])
+}
+
 fn are_known(whole: Whole<'_>, data: &Measurements, row: &Row) -> Result<(), DiagnoseError> {
     let (file, expected) = (|| data.file.clone(), whole.arm.dof());
     if row.q.len() != expected {
         return Err(DiagnoseError::Joints { file: file(), found: row.q.len(), expected });
     }
-    if let (Some(marker), None) = (&row.marker, row.offset) {
-        return Err(DiagnoseError::NewMarker { file: file(), marker: marker.clone() });
-    }
+    has_marker(data, row)?;
     if let Some(aim) = row.aim.as_deref().filter(|aim| !aim.free.is_empty()) {
         let point = aim.full_name();
         return Err(DiagnoseError::NewPoint { file: file(), point });
     }
     Ok(())
+}
+
+fn has_marker(data: &Measurements, row: &Row) -> Result<(), DiagnoseError> {
+    match (&row.marker, row.offset) {
+        (Some(marker), None) => {
+            Err(DiagnoseError::NewMarker { file: data.file.clone(), marker: marker.clone() })
+        }
+        _ => Ok(()),
+    }
 }
 
 fn reading(

@@ -172,7 +172,7 @@ impl Campaign {
         let positions = self.data.kind.components()[..3].contains(&true);
         let left = |model: &Explanation| {
             let gaps = model.predict(&self.data)?.after;
-            let left = Statistics::of(&gaps);
+            let left = Statistics::of_rows(self.data.kind, self.data.rows.iter().zip(&gaps));
             let rms = if positions { left.position_rms } else { left.rotation_rms };
             Ok::<_, Failure>(rms)
         };

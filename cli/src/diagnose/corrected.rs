@@ -96,12 +96,24 @@ impl<'a> Corrections<'a> {
             mended.map(|wrong| format!("Mended: {}.", wrong.sentence)).collect();
         lines.push("Put in, with 95 % intervals:".to_owned());
         lines.extend(found.outcomes.iter().map(line));
-        lines.extend(diagnosis.nuisances.iter().map(frame));
+        let explanation = &self.diagnosed.explanation;
+        let tool: [f64; 3] = explanation.arm().tool.translation.vector.into();
+        let is_held = |n: &&NuisanceReport| match Nuisance::parse(&n.name) {
+            Ok(Nuisance::BaseFrame) => n.session.is_none(),
+            Ok(Nuisance::ToolFrame) => n.translation == tool,
+            Err(_) => explanation.markers().any(|(name, _)| name == n.name),
+        };
+        let (held, lost): (Vec<_>, Vec<_>) = diagnosis.nuisances.iter().partition(is_held);
+        lines.extend(held.into_iter().map(frame));
         if diagnosis.hangs_as_measured {
             lines.push("  gravity: down as the measuring frame stands, in gravity".to_owned());
         }
         if lines.last().is_some_and(|last| !last.starts_with(' ')) {
             lines.push("  nothing".to_owned());
+        }
+        if !lost.is_empty() {
+            lines.push("Co-estimated, and in no robot file:".to_owned());
+            lines.extend(lost.into_iter().map(frame));
         }
         lines
     }

@@ -113,6 +113,7 @@ pub fn diagnose_with(
     progress(Stage::Align);
     options.effects()?;
     let mut options = options.clone();
+    options.nuisances = Nuisance::unknown(data, &options.nuisances);
     let (mut mistaken, mended) = mistakes::find(arm, data, &options).unzip();
     let mended = mended.flatten();
     // In a gap that is no arm's there is nothing to be found.

@@ -6,6 +6,7 @@ use super::prior::Prior;
 use super::progress::Stop;
 use crate::effects::{BaseFrame, Catalogue, Effect, Geometry, Known, Law, ToolFrame};
 use crate::io::nearest;
+use crate::measurement::Measurements;
 use crate::spring::Spring;
 
 /// A frame that is known to be unknown: fitted and projected out, never a finding.
@@ -32,6 +33,13 @@ impl Nuisance {
     /// The frame that an effect moves, if that is all it does.
     pub fn of(effect: &dyn Effect) -> Option<Self> {
         Self::ALL.into_iter().find(|frame| frame.effect() == effect)
+    }
+
+    /// Those that are fitted along: those `asked` for, and where a camera or its board stands.
+    pub(crate) fn unknown(data: &Measurements, asked: &[Self]) -> Vec<Self> {
+        let by_data = [data.by_camera, data.by_board];
+        let is_unknown = |(frame, by_data): &(Self, bool)| *by_data || asked.contains(frame);
+        Self::ALL.into_iter().zip(by_data).filter(is_unknown).map(|(frame, _)| frame).collect()
     }
 
     /// By its effect's identifier.
@@ -155,9 +163,8 @@ pub enum DiagnoseError {
     )]
     NewSession { file: String, session: String, known: String },
     #[error(
-        "{file}: found distances from {}, expected a point of the diagnosed data or its place in \
-         from_x, from_y, from_z: where it is was never fitted",
-        if point.is_empty() { "an unknown point".to_owned() } else { format!("the point `{point}`") }
+        "{file}: found a plan to read the {point}, expected to know it: say in --bench where it is; only readings tell it \
+         otherwise"
     )]
     NewPoint { file: String, point: String },
     #[error(

@@ -73,6 +73,7 @@ pub(crate) fn displaced(
     if !data.kind.is_pose() || data.poses < FEWEST_POSES || reach <= 0.0 {
         return None;
     }
+    let along = &Nuisance::unknown(data, along)[..];
     let points = Points::of(arm, data, known);
     if points.rows.len() < FEWEST_POSES {
         return None;

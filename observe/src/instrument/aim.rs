@@ -53,6 +53,12 @@ impl Seen {
         }
     }
 
+    /// Whether it stands somewhere, so that nothing but itself says where the arm is: its first three constants, where it
+    /// is unknown.
+    pub fn has_place(self) -> bool {
+        matches!(self, Seen::Point | Seen::Distance | Seen::Plane)
+    }
+
     /// How many numbers it reads.
     pub fn numbers(self) -> usize {
         self.components().into_iter().filter(|is| *is).count()

@@ -221,6 +221,11 @@ pub struct Row {
 }
 
 impl Row {
+    /// Whether constants of the instrument that it reads are unknown.
+    pub fn reads_unknown(&self) -> bool {
+        self.aim.as_ref().is_some_and(|aim| !aim.free.is_empty())
+    }
+
     /// A row at some readings, without load, of which nothing was measured.
     pub fn new(line: u64, q: Vec<f64>) -> Row {
         Row {
@@ -256,6 +261,11 @@ impl Row {
             (Kind::Bench { .. }, Some(aim)) => aim.seen.components(),
             _ => kind.components(),
         }
+    }
+
+    /// Whether lengths (from the `first` component, 0, on) or angles (3) are measured in this row.
+    pub fn reads(&self, kind: Kind, first: usize) -> bool {
+        self.components(kind)[first..first + 3].contains(&true)
     }
 
     /// Whether its joints are all that is read: a point that only lies in its socket, or on its plate.

@@ -2,12 +2,11 @@
 
 use stiffarm_gap::diagnose::{BenchReport, LeftOut, NuisanceReport, PairReport, Share};
 use stiffarm_gap::gap::Statistics;
-use stiffarm_gap::io::Unit;
 use stiffarm_gap::measurement::ExtraColumn;
 
 use super::Campaign;
-use crate::document::Block;
 use crate::document::words::{lower, words};
+use crate::document::{Block, Unit};
 use crate::terminal::text::{fixed, listed, short};
 
 /// Residuals are reported as odd where noise makes them so less often, and it matters.
@@ -165,6 +164,14 @@ impl Campaign<'_> {
 
     fn shrunk(&self, before: &Statistics, after: &Statistics) -> String {
         let units = self.units();
+        // Another file's instrument may read angles alone, in its own unit.
+        let reads_angles = units.positions && before.position_max.max(after.position_max) == 0.0;
+        if let (true, Some(first), Some(last)) =
+            (reads_angles, before.kinds.values().next(), after.kinds.values().next())
+        {
+            let shown = Unit::of(&first.unit, first.rms.max(last.rms));
+            return format!("{} rms", shown.change(first.rms, last.rms));
+        }
         if units.positions {
             let shown = units.length([before.position_rms, after.position_rms]);
             format!(
@@ -222,7 +229,7 @@ impl Campaign<'_> {
         let unknown = self.data.extra.iter().filter(|column| !rival(&column.name));
         // What has the unit of a load or a temperature may act on the arm.
         let acts = |column: &ExtraColumn| {
-            let unit = column.unit.as_deref().and_then(Unit::named)?;
+            let unit = column.unit.as_deref().and_then(stiffarm_gap::io::Unit::named)?;
             unit.dimension.acts().then(|| format!("{}, which may act", unit.dimension))
         };
         let unknown = unknown.map(|column| {

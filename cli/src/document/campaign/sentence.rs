@@ -25,7 +25,7 @@ impl Campaign<'_> {
             None => self.explained(),
             Some(wrong) if wrong.mistakes.is_empty() => self.no_arms(wrong),
             Some(wrong) => {
-                format!("{} Besides: {}", self.mistaken(wrong), self.explained())
+                format!("{} {}", self.mistaken(wrong), self.explained())
             }
         }
     }

@@ -7,8 +7,9 @@ use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
 use super::problem::Problem;
 use crate::diagnose::options::Options;
 use crate::diagnose::report::NoiseReport;
+use crate::gap::rms;
 use crate::infer::constants::UNEXPLAINED;
-use crate::measurement::Row;
+use crate::measurement::{Kind, Row};
 
 /// Fewer repeats than this (rows beyond the first of each pose and load) say nothing of the noise.
 const LEAST_REPEATS: usize = 3;
@@ -54,6 +55,9 @@ pub(crate) struct Level {
     pub(crate) components: usize,
     /// The same on average over the rows.
     pub(crate) per_row: f64,
+    /// How much larger a row's norm is, root mean square over the rows that read this kind; of a bench each
+    /// instrument's as precise as it is.
+    norm: f64,
     /// The first of the three components of a twist.
     first: usize,
 }
@@ -86,7 +90,8 @@ impl Noise {
             let per_row = numbers as f64 / kept.len().max(1) as f64;
             let repeats = Repeats::of(problem, kept.clone(), &gap, first, per_row);
             let visits = repeats.as_ref().and_then(Repeats::visits);
-            let with = |sd, source| Level { sd, visits, source, components, per_row, first };
+            let norm = norm(problem, &kept, first);
+            let with = |sd, source| Level { sd, visits, source, components, per_row, norm, first };
             if let Some(sd) = given {
                 return with(sd, Source::Option);
             }
@@ -125,7 +130,7 @@ impl Noise {
 
     pub(crate) fn report(&self) -> NoiseReport {
         let is_there = |l: &Level| l.components > 0;
-        let rms = |l: &Level, sd: f64| sd * l.per_row.sqrt();
+        let rms = |l: &Level, sd: f64| sd * l.norm;
         let visits = |l: &Level| l.visits.filter(|_| is_there(l)).map(|sd| rms(l, sd));
         let from = |l: &Level| is_there(l).then(|| l.source.name().into());
         let (position, rotation) = (&self.position, &self.rotation);
@@ -204,6 +209,19 @@ impl Level {
             }
         }
     }
+}
+
+/// The norm of what a row reads of a kind, in standard deviations: root mean square over the rows that read it.
+fn norm(problem: &Problem<'_>, rows: &[usize], first: usize) -> f64 {
+    let (data, is_bench) = (problem.data, matches!(problem.data.kind, Kind::Bench { .. }));
+    let reading = rows.iter().filter(|row| data.rows[**row].reads(data.kind, first));
+    let of_row = |row: &usize| {
+        let (is, precision) =
+            (data.rows[*row].components(data.kind), problem.precision.of_row(*row));
+        let own = |k: usize| if is_bench { precision[k].powi(-2) } else { 1.0 };
+        (first..first + 3).filter(|k| is[*k]).map(own).sum::<f64>().sqrt()
+    };
+    rms(&reading.map(of_row).collect::<Vec<_>>())
 }
 
 /// Of the three components of a kind.

@@ -11,7 +11,7 @@ use crate::diagnose::options::{DiagnoseError, Nuisance, Options, TOLERANCE};
 use crate::diagnose::prior::Prior;
 use crate::diagnose::progress::Stop;
 use crate::effects::{Effect, Known};
-use crate::gap::Statistics;
+use crate::gap::{Statistics, rms};
 use crate::instrument::{Aim, Pair, Seen};
 use crate::measurement::{Kind, Measurements, Row, Stands, number_of};
 use crate::parallel;
@@ -175,16 +175,7 @@ impl<'a> Problem<'a> {
             mask: Vector6::from_iterator(data.kind.components().map(f64::from)),
             measured: (0..6).filter(|&k| data.kind.components()[k]).collect(),
             known,
-            nuisances: {
-                let is_unknown = |frame: &Nuisance| {
-                    let by_data = match frame {
-                        Nuisance::BaseFrame => data.by_camera,
-                        Nuisance::ToolFrame => data.by_board,
-                    };
-                    by_data || options.nuisances.contains(frame)
-                };
-                Nuisance::ALL.into_iter().filter(is_unknown).collect()
-            },
+            nuisances: Nuisance::unknown(data, &options.nuisances),
             along: options.along().filter(|e| e.excluded(data).is_none()),
             priors: options.priors.clone(),
             tolerance: options.tolerance.unwrap_or(TOLERANCE),
@@ -217,7 +208,7 @@ impl<'a> Problem<'a> {
     }
 
     /// The rows that are counted.
-    pub(crate) fn kept_rows(&self) -> impl Iterator<Item = &'a Row> + '_ {
+    pub(crate) fn kept_rows(&self) -> impl Iterator<Item = &'a Row> + Clone + '_ {
         self.data.rows.iter().zip(&self.fits).filter(|(_, fits)| **fits).map(|(row, _)| row)
     }
 
@@ -263,6 +254,17 @@ impl<'a> Problem<'a> {
     /// How far a gap is, by what is measured first: m, or rad where no position is.
     pub(crate) fn size(&self, gap: &Vector6<f64>) -> f64 {
         gap.fixed_rows::<3>(self.first()).norm()
+    }
+
+    /// Root mean square of the rows' sizes, over the rows that are counted and read what is measured first.
+    pub(crate) fn rms(&self, sizes: &[f64]) -> f64 {
+        let read = self.kept_rows().zip(self.kept(sizes)).filter(|(row, _)| self.is_judged(row));
+        rms(&read.map(|(_, size)| *size).collect::<Vec<_>>())
+    }
+
+    /// Whether a row reads what is measured first.
+    pub(crate) fn is_judged(&self, row: &Row) -> bool {
+        row.reads(self.data.kind, self.first())
     }
 
     /// The first component of what is measured first: positions, or rotations without them.

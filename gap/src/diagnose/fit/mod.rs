@@ -12,12 +12,14 @@ mod align;
 mod axes;
 mod bond;
 mod model;
+mod placed;
 mod refit;
 
 pub(crate) use align::{aligned, fitted_thing, rigid};
 pub(crate) use axes::Axes;
 pub(crate) use bond::{Bond, Place};
 pub(crate) use model::{Fitted, Model, Predicted};
+pub(crate) use placed::{Placed, placed};
 pub(crate) use refit::{
     Fit, block, normal_equations, prior_penalty, refit, refit_below, squares, step,
 };

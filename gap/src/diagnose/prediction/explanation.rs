@@ -10,6 +10,7 @@ use crate::diagnose::fit::{Fitted, Model, fitted_thing};
 use crate::diagnose::options::{DiagnoseError, Nuisance, Options};
 use crate::diagnose::report::Cover;
 use crate::effects::{Catalogue, Depends, Known};
+use crate::instrument::Aim;
 use crate::measurement::{Base, Kind, Measurements, Stands};
 
 /// What a diagnosis knows of the arm.
@@ -100,7 +101,8 @@ impl Explanation {
     }
 
     /// The arm with base and tool where they were fitted, or as the robot file has them; of several
-    /// sessions, each with a base of its own, the base is the robot file's.
+    /// sessions, each with a base of its own, the base is the robot file's. A board or camera on the tool is beside it:
+    /// loads act at the tool.
     pub fn arm(&self) -> &Arm {
         &self.arm
     }
@@ -141,10 +143,14 @@ impl Explanation {
         let mounts: Vec<usize> = (problem.stands.mounts.iter())
             .map(|name| self.mount(&problem, name))
             .collect::<Result<_, _>>()?;
+        // What has no name, in a session without one, may stand otherwise in another file: a level was clamped on again.
+        let is_here = data.file == self.file;
         let known_thing = |Thing { aim, session }: &Thing| {
+            let names = [&aim.name, &problem.sessions[*session]];
+            let is_told = is_here || names.iter().any(|name| !name.is_empty());
             let same = |known: &Thing| {
                 let is = (known.aim.seen, &known.aim.name) == (aim.seen, &aim.name);
-                is && sessions[*session] == Some(known.session)
+                is_told && is && sessions[*session] == Some(known.session)
             };
             self.bench.iter().position(same)
         };
@@ -153,7 +159,8 @@ impl Explanation {
         let carried = |model: &Model| {
             let mut model = model.clone();
             model.markers = places.iter().map(|k| model.markers[*k]).collect();
-            model.bases = bases.iter().map(|k| model.bases[k.unwrap_or(0)]).collect();
+            model.bases =
+                bases.iter().map(|k| k.map_or(self.nominal.base, |k| model.bases[k])).collect();
             model.mounts = mounts.iter().map(|k| model.mounts[*k]).collect();
             let things = bench.iter().zip(&problem.bench);
             let known =
@@ -210,7 +217,16 @@ impl Explanation {
                 own.next().filter(|_| bases.len() == 1 && other.stands.bases.len() == 1)
             })
         });
-        if found.is_none() && other.is_unknown(Nuisance::BaseFrame) {
+        // Of a file without sessions a camera stands where the one of its name stood.
+        let same = |k: &usize| bases[*k].beside == *beside && session.is_empty();
+        let mut named = (0..bases.len()).filter(|k| same(k) && !beside.is_empty());
+        let found = found.or_else(|| named.next().filter(|_| named.next().is_none()));
+        // Places that are fitted to these rows alone take up where the arm stands.
+        let takes_base = |aim: &Aim| aim.seen.has_place() && aim.free.starts_with(&[0, 1, 2]);
+        let rows = other.data.rows.iter().zip(&other.stands.base_of);
+        let mut own = rows.filter(|(_, base)| **base == number).map(|(row, _)| row);
+        let mut is_free = || own.all(|row| row.aim.as_deref().is_some_and(takes_base));
+        if found.is_none() && other.is_unknown(Nuisance::BaseFrame) && !is_free() {
             return Err(self.new_frame(other, other.stands.base(number).unwrap_or(session.clone())));
         }
         Ok(found)

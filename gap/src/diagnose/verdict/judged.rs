@@ -12,7 +12,6 @@ use crate::diagnose::report::{
     BenchReport, Finding, Observability, PairReport, Residual, Unexplained,
 };
 use crate::diagnose::search::{Explained, Search};
-use crate::gap::Statistics;
 use crate::infer::constants::SIGNIFICANT;
 use crate::infer::{Observations, worst};
 use crate::shrink::Shrink;
@@ -56,7 +55,7 @@ impl Search<'_, '_> {
         let held = Held::new(self, &now);
         let shrinking = held.ordered(&groups);
         let after = if groups.is_empty() { before } else { &shrinking.after };
-        let size = Statistics::of(self.problem.kept(after));
+        let size = self.problem.statistics(after);
         let positions = self.problem.measures_position();
         let main = if positions { size.position_rms } else { size.rotation_rms };
         let unexplained =

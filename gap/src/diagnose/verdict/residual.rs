@@ -54,12 +54,13 @@ impl Search<'_, '_> {
 /// Of the numbers that are measured and counted, by the test of Anderson and Darling with mean and
 /// variance estimated (Stephens 1974; its chance by D'Agostino & Stephens 1986, table 4.9).
 fn normality(problem: &Problem<'_>, gaps: &[Vector6<f64>]) -> Option<Normality> {
-    let kept = problem.kept(gaps);
+    let kept = problem.kept_rows().zip(problem.kept(gaps));
+    let read = |k: usize| kept.clone().filter(move |(row, _)| row.components(problem.data.kind)[k]);
     let mut values = Vec::new();
     // Positions and rotations each by their own size.
     for kind in [0..3, 3..6] {
         let mut own: Vec<f64> = (problem.measured.iter().filter(|k| kind.contains(*k)))
-            .flat_map(|k| kept.clone().map(|gap| gap[*k]))
+            .flat_map(|k| read(*k).map(|(_, gap)| gap[*k]))
             .collect();
         let mean = own.iter().sum::<f64>() / own.len().max(1) as f64;
         let variance = own.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / own.len() as f64;

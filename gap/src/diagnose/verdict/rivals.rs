@@ -58,7 +58,8 @@ impl Search<'_, '_> {
                     && spot.place == found[0].spot.place
             })
         };
-        let rows = self.problem.kept_rows().count() as f64;
+        let rows =
+            self.problem.kept_rows().filter(|row| self.problem.is_judged(row)).count() as f64;
         // Of the forms of one effect the best speaks for it.
         let mut rivals: Vec<&Ranked> = Vec::new();
         for one in ranked {

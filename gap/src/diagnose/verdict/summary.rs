@@ -12,7 +12,6 @@ use crate::diagnose::fit::Model;
 use crate::diagnose::options::Nuisance;
 use crate::diagnose::report::{Cover, NuisanceReport};
 use crate::diagnose::search::{Explained, Search};
-use crate::gap::rms;
 use crate::infer::interval;
 use crate::instrument::View;
 use crate::report::{Finding, HeldOutGap, Parameter};
@@ -31,7 +30,7 @@ impl Search<'_, '_> {
         refitted: &Refitted,
     ) -> Vec<Finding> {
         let mut last = before.to_vec();
-        let whole = rms(&self.problem.kept(before).copied().collect::<Vec<_>>());
+        let whole = self.problem.rms(before);
         let each = groups.iter().zip(rivals).enumerate().map(|(number, (group, rivals))| {
             let first = &now.fit.model.found[group[0]];
             let after = shrinking.sizes_after(number + 1);
@@ -58,12 +57,11 @@ impl Search<'_, '_> {
 
     /// From sizes of gaps to others of the same rows, the logarithm of whose ratio scatters by `spread`.
     pub(super) fn shrink(&self, before: &[f64], after: &[f64], spread: f64) -> Shrink {
-        let rms = |sizes: &[f64]| rms(&self.problem.kept(sizes).copied().collect::<Vec<_>>());
         let sum = |sizes: &[f64]| sizes.iter().map(|s| s * s).sum();
         let shrink = shrink(sum(before), sum(after));
         Shrink {
-            before: rms(before),
-            after: rms(after),
+            before: self.problem.rms(before),
+            after: self.problem.rms(after),
             shrink,
             shrink_ci95: interval(shrink, spread, self.folds.blocks()),
         }

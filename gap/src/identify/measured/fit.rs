@@ -9,9 +9,10 @@ use stiffarm_kernels::generic::Arm;
 use super::choose::{Choice, choose};
 use super::{Answer, Gap, MeasuredError, Noise, Parameter, Question, Status, Uncertainty, Unknown};
 use crate::diagnose::data::{Folds, Problem};
-use crate::diagnose::fit::{Fit, Model, aligned, normal_equations, refit, squares, step};
+use crate::diagnose::fit::{Fit, Model, normal_equations, placed, refit, squares, step};
 use crate::diagnose::search::{Explained, Search};
 use crate::diagnose::{DiagnoseError, Options};
+use crate::effects::Known;
 use crate::gap::Statistics;
 use crate::identify::pull::{Pull, pull};
 use crate::infer::constants::SIGNIFICANT;
@@ -84,36 +85,18 @@ fn with_bench(
     options: &Options,
     unknowns: &[Unknown],
 ) -> Result<Measurements, MeasuredError> {
-    let is_unknown = |row: &Row| row.aim.as_ref().is_some_and(|aim| !aim.free.is_empty());
-    if !data.rows.iter().any(is_unknown) {
+    if !data.rows.iter().any(Row::reads_unknown) {
         return Ok(data);
     }
-    let first = &placed(arm, data.clone(), options)?;
+    let first = &placed(arm, data.clone(), &options.known)?.data;
     let (problem, folds) = (&problem(arm, first, options)?, &Folds::deal(first, options)?);
     let search = Search { problem, folds, candidates: &[], options, progress: &|_| {} };
     let nominal = Model::nominal(problem);
     let choice = chosen(&search, &nominal, unknowns)?;
     let springs = fitted(&search, &nominal, unknowns, &choice)?.fit.model.found;
     let springs = springs.iter().map(|spring| spring.known(&data.file));
-    let known = options.known.iter().cloned().chain(springs).collect();
-    Ok(placed(arm, data, &Options { known, ..options.clone() })?)
-}
-
-/// The rows with the bench where the arm shows it, which is known from here on.
-fn placed(
-    arm: &Arm,
-    mut data: Measurements,
-    options: &Options,
-) -> Result<Measurements, DiagnoseError> {
-    let problem = Problem::new(arm, &data, options)?;
-    let bench = refit(&problem, aligned(&problem)?, None, &problem.mask)?.model.bench;
-    let bench_of = problem.bench_of;
-    for (row, number) in data.rows.iter_mut().zip(bench_of) {
-        if let (Some(aim), Some(number)) = (&mut row.aim, number) {
-            (aim.view, aim.free) = (bench[number].pointed(&aim.view), &[]);
-        }
-    }
-    Ok(data)
+    let known: Vec<Known> = options.known.iter().cloned().chain(springs).collect();
+    Ok(placed(arm, data, &known)?.data)
 }
 
 /// Poses with a constant of their own for each marker and each thing of the bench.
