@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use nalgebra::{UnitQuaternion, Vector3, Vector6};
 use serde_json::{Value, json};
 use stiffarm_codegen::derive::Given;
+use stiffarm_document::text::{Align, bad, bold, dim, good, indented, table, thousands};
 use stiffarm_gap::whole::{Situation, Whole};
 use stiffarm_robots::{ARMS, SYMBOLIC};
 
@@ -16,7 +17,6 @@ use crate::input::source::{RobotArgs, Source};
 use crate::terminal::failure::Failure;
 use crate::terminal::output::Target;
 use crate::terminal::progress::Progress;
-use crate::terminal::text::{Align, bad, bold, dim, good, indented, table, thousands};
 use stiffarm_kernels::parity::{Agreement, Beyond, Comparison, Evaluate, Line, Subject, agreement};
 
 const EXAMPLES: &str = "\

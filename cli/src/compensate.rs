@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 
 use nalgebra::{UnitQuaternion, Vector3, Vector6};
 use stiffarm_compensate::reach::{Ended, Reached, Search, Target as Goal, reach_by_branches};
+use stiffarm_document::text::{bold, counted, dim, short};
 use stiffarm_gap::Measurements;
 use stiffarm_gap::doubts;
 use stiffarm_gap::io::{Columns, ReadError, quoted};
@@ -25,7 +26,6 @@ use crate::input::{data, quantity};
 use crate::terminal::failure::Failure;
 use crate::terminal::output::Target;
 use crate::terminal::progress::Progress;
-use crate::terminal::text::{bold, dim, short};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -272,7 +272,7 @@ fn screen(source: &Source, targets: &Measurements, found: &[Reached]) -> String 
     let mut text = format!(
         "{}\n{}\n\n",
         bold(&source.robot.name),
-        dim(format!("{}: {}", targets.file, quantity::counted(found.len(), "target")))
+        dim(format!("{}: {}", targets.file, counted(found.len(), "target")))
     );
     text.push_str(&format!("  reached  {} of {}\n", reached().count(), found.len()));
     if reached().next().is_some() {

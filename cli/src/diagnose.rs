@@ -2,7 +2,6 @@
 
 mod accepted;
 mod campaign;
-mod check;
 mod compared;
 mod corrected;
 mod log;
@@ -14,6 +13,8 @@ mod together;
 use std::path::PathBuf;
 
 use stiffarm_codegen::robot::Robot;
+use stiffarm_document::text::{counted, words};
+use stiffarm_document::{Document, Embedded, TOP};
 use stiffarm_gap::Options;
 use stiffarm_gap::diagnose::{Prior, Stage};
 use stiffarm_gap::effects::Catalogue;
@@ -22,26 +23,20 @@ use stiffarm_gap::measurement::Dimension;
 use stiffarm_gap::spring::Spring;
 use stiffarm_kernels::generic::Arm;
 
-pub use accepted::Accepted;
 pub use campaign::Campaign;
-pub use check::Check;
-pub use compared::{Compared, Reached};
 use corrected::exported;
 pub use corrected::{Format, commented};
-pub use log::{Check as LogCheck, Motion, Part, names, parts, read};
+pub use log::{Motion, Part, names, parts, read};
 pub use predicted::{Predicted, PredictedLog};
-pub use provenance::{Hashes, Provenance};
 pub use settings::{IN_MOTION, Settings};
-pub use together::{Said, Together};
+pub use together::Together;
 
 use super::Verdict;
-use crate::document::{Document, Embedded, TOP};
 use crate::host::Host;
-use crate::input::quantity::{self, counted};
+use crate::input::quantity;
 use crate::input::source::{RobotArgs, Source};
 use crate::terminal::failure::Failure;
 use crate::terminal::output::Target;
-use crate::terminal::text::words;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -156,7 +151,7 @@ pub trait Found: Send + Sync {
     /// [`Failure`] if it cannot be made.
     fn page(&self) -> Result<String, Failure> {
         let (document, embedded) = self.document(true)?;
-        document.html(&embedded)
+        Ok(document.html(&embedded)?)
     }
 
     /// What a certificate says.

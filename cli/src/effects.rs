@@ -1,6 +1,7 @@
 //! `stiffarm effects`: what reality does that a model leaves out, as the catalogue has it.
 
 use serde::Serialize;
+use stiffarm_document::text::{bold, dim, wrapped};
 use stiffarm_gap::effects::{self, AtRest, Facts, InMotion, Place, Spot};
 use stiffarm_gap::log::Domain;
 use stiffarm_kernels::generic::Arm;
@@ -12,7 +13,6 @@ use crate::input::source::RobotArgs;
 use crate::terminal::failure::Failure;
 use crate::terminal::json;
 use crate::terminal::output::Target;
-use crate::terminal::text::{bold, dim, wrapped};
 
 const EXAMPLES: &str = "\
 Examples:

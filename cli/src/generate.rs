@@ -10,6 +10,7 @@ use stiffarm_codegen::emit::{
     urdf,
 };
 use stiffarm_codegen::robot::{Refused, Robot, Wanted};
+use stiffarm_document::text::{bad, dim, good};
 use stiffarm_kernels::generic::BaseParameter;
 
 use super::Verdict;
@@ -17,7 +18,6 @@ use crate::host::Host;
 use crate::input::source::{self, Source};
 use crate::terminal::failure::Failure;
 use crate::terminal::output::Target;
-use crate::terminal::text::{bad, dim, good};
 
 const EXAMPLES: &str = "\
 Examples:

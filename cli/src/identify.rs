@@ -1,12 +1,12 @@
 //! `stiffarm identify`: stiffnesses from loaded measurements.
 
 mod corrected;
-mod document;
-mod words;
 
 use std::path::PathBuf;
 
 use serde_json::{Value, json};
+use stiffarm_document::TOP;
+use stiffarm_document::identified::{Identified, is_translation, stiffness};
 use stiffarm_gap::Measurements;
 use stiffarm_gap::diagnose::Nuisance;
 use stiffarm_gap::gap::Statistics;
@@ -14,9 +14,9 @@ use stiffarm_gap::identify::measured::{
     Answer, Parameter, Question, Status, Unknown, identify_measured,
 };
 use stiffarm_gap::measurement::Dimension;
+use stiffarm_kernels::generic::Arm;
 
 use super::Verdict;
-use crate::document::TOP;
 use crate::host::Host;
 use crate::input::data::{self, BenchArgs};
 use crate::input::quantity;
@@ -100,20 +100,23 @@ pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
     let answer = identify_measured(&arm, &data, &question, &|part| progress.reach(part, PARTS));
     drop(progress);
     let answer = answer?;
-    let result = written(&source, &data, &answer, &args.data.display().to_string());
+    let result = written(&source, &arm, &data, &answer, &args.data.display().to_string());
     if data.sim_given.contains(&true) {
         host.note("the columns sim_… play no part: springs are compared with the robot file");
     }
     host.put(&args.json, || crate::terminal::json::text(&result))?;
     host.put(&args.write_robot, || corrected::robot(&source, &answer, &data.file))?;
-    let identified = document::Identified {
-        source: &source,
+    let identified = Identified {
+        robot: &source.robot.name,
+        given: &source.given,
         arm: &arm,
         data: &data,
         question: &question,
         answer: &answer,
     };
-    host.put(&args.report, || identified.document(true).html(&identified.embedded(&result)?))?;
+    host.put(&args.report, || {
+        Ok(identified.document(true).html(&identified.embedded(&result)?)?)
+    })?;
     if host.shows(&[&args.json, &args.write_robot, &args.report]) {
         host.print(&identified.document(false).text(TOP))?;
     }
@@ -138,7 +141,7 @@ impl Args {
 }
 
 /// The result as it is written; SI.
-fn written(source: &Source, data: &Measurements, answer: &Answer, file: &str) -> Value {
+fn written(source: &Source, arm: &Arm, data: &Measurements, answer: &Answer, file: &str) -> Value {
     let sizes = |s: &Statistics| {
         json!({
             "position_rms": s.position_rms,
@@ -159,30 +162,16 @@ fn written(source: &Source, data: &Measurements, answer: &Answer, file: &str) ->
         "freedom": answer.freedom,
         "reduced_chi2": answer.reduced_chi2,
         "scaled_condition": answer.scaled_condition,
-        "parameters": answer.parameters.iter().map(|p| entry(source, p)).collect::<Vec<_>>(),
+        "parameters": answer.parameters.iter().map(|p| entry(arm, p)).collect::<Vec<_>>(),
     })
-}
-
-/// Whether a compliance is that of a translation, m/N.
-fn is_translation(source: &Source, unknown: Unknown) -> bool {
-    match unknown {
-        Unknown::Joint(j) => source.readings().get(j - 1) == Some(&Dimension::Length),
-        Unknown::Link(_) => false,
-        Unknown::Base(k) => k < 3,
-    }
-}
-
-/// `1/c`; none where that is not a stiffness.
-fn stiffness(compliance: f64) -> Option<f64> {
-    (compliance > 0.0).then(|| 1.0 / compliance).filter(|k| k.is_finite())
 }
 
 /// One number, found or held: its interval is none of one that is held; its stiffness is none where it is rigid, or
 /// unbounded.
-fn entry(source: &Source, parameter: &Parameter) -> Value {
+fn entry(arm: &Arm, parameter: &Parameter) -> Value {
     let unknown = parameter.unknown;
     let compliance = !matches!(unknown, Unknown::Link(_));
-    let unit = match (compliance, is_translation(source, unknown)) {
+    let unit = match (compliance, is_translation(arm, unknown)) {
         (false, _) => "1",
         (true, true) => "m/N",
         (true, false) => "rad/(N·m)",

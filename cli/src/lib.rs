@@ -2,7 +2,7 @@
 //! do the same for another program, which hands over files and takes what is told ([`host`]).
 //!
 //! One file per command; what they share lies in rooms: `input` (robots, data, numbers as they are given), `terminal` (text, errors, progress,
-//! files written), `document` (what a command reports, printed to a screen or as a page), `plot`.
+//! files written). What a diagnosis reports is a document of `stiffarm-document`.
 #![forbid(unsafe_code)]
 
 mod check;
@@ -10,7 +10,6 @@ mod compensate;
 mod completions;
 mod controller;
 mod diagnose;
-mod document;
 #[cfg(test)]
 mod documented;
 mod effects;
@@ -25,7 +24,6 @@ mod map;
 mod measurements;
 mod motion;
 mod papers;
-mod plot;
 mod poses;
 mod predict;
 mod robots;
@@ -46,10 +44,10 @@ pub use diagnose::{
     Campaign, Catalogues, Format, Found, Motion, Predicted, PredictedLog, Settings, Together,
     diagnose,
 };
-pub use document::TOP;
 use host::{Ended, Host};
 pub use input::source::{RobotArgs, Source};
 pub use map::Axes;
+pub use stiffarm_document::TOP;
 pub use terminal::failure::{Failure, Remark};
 pub use terminal::json;
 pub use terminal::whole::Whole;

@@ -8,18 +8,17 @@ mod sweep;
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use stiffarm_document::plot::number;
+use stiffarm_document::text::{bold, counted, dim, short};
 use stiffarm_gap::whole::Whole;
 use stiffarm_study::dexterity::Map;
 
 use super::Verdict;
 use crate::host::Host;
-use crate::input::quantity;
 use crate::input::source::RobotArgs;
-use crate::plot::number;
 use crate::terminal::failure::Failure;
 use crate::terminal::output::Target;
 use crate::terminal::progress::Progress;
-use crate::terminal::text::{bold, dim, short};
 pub use axes::Axes;
 use learnt::{Learnt, LearntArgs};
 use quantity_of::{NoValue, Of, Quantity};
@@ -146,7 +145,7 @@ fn numbers(sweep: &Sweep, asked: &Quantity, map: &Map) -> String {
 }
 
 fn screen(robot: &str, sweep: &Sweep, asked: &Quantity, map: &Map, unstable: usize) -> String {
-    let cells = quantity::counted(map.values.len(), "cell");
+    let cells = counted(map.values.len(), "cell");
     let mut text = format!("{}\n{}\n\n", bold(robot), dim(format!("{}: {cells}", asked.name())));
     let finite = || map.cells().filter(|cell| cell.value.is_finite());
     let lowest = finite().min_by(|a, b| a.value.total_cmp(&b.value));
@@ -168,7 +167,7 @@ fn screen(robot: &str, sweep: &Sweep, asked: &Quantity, map: &Map, unstable: usi
         }
     }
     if unstable > 0 {
-        let cells = quantity::counted(unstable, "cell");
+        let cells = counted(unstable, "cell");
         text.push_str(&format!("  empty: {cells} in which the arm is not stable under the load\n"));
     }
     text

@@ -4,6 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
+use stiffarm_document::text::counted;
 use stiffarm_gap::log::{Log, Names, Signal};
 use stiffarm_gap::rng::{Rng, Stream};
 use stiffarm_kernels::generic::Arm;
@@ -11,7 +12,6 @@ use stiffarm_plant::course::{Course, Fourier, Limits, Sampled};
 use stiffarm_plant::motion::{Logged, Recording, Side, Stage};
 
 use crate::host::Host;
-use crate::input::quantity;
 use crate::input::source::Source;
 use crate::terminal::failure::Failure;
 
@@ -178,7 +178,7 @@ impl Courses {
         let signal = if log.has(Signal::QCmd) { Signal::QCmd } else { Signal::Q };
         let course = |run: &stiffarm_gap::log::Run| -> Result<Box<dyn Course>, Failure> {
             let sampled = Sampled::of(&run.t, &run.signals[&signal]).ok_or_else(|| {
-                let count = quantity::counted(run.t.len(), "sample");
+                let count = counted(run.t.len(), "sample");
                 Failure::new(format!(
                     "{file}: run {}: found {count}, expected a motion of three steps of 20 ms or more",
                     run.name

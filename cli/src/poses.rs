@@ -6,6 +6,7 @@ mod screen;
 
 use clap::ValueEnum;
 use nalgebra::Vector6;
+use stiffarm_document::text::counted;
 use stiffarm_gap::diagnose::Nuisance;
 use stiffarm_gap::effects::Catalogue;
 use stiffarm_gap::instrument::{Lens, View};
@@ -218,10 +219,7 @@ impl Args {
             (For::Diagnose | For::Motion, []) => Ok(Purpose::Diagnose),
             (For::Separate, [a, b]) => Ok(Purpose::Separate([suspect(a)?, suspect(b)?])),
             (For::Separate, _) => Err(Failure::with_help(
-                format!(
-                    "--for separate: found {}, expected two",
-                    quantity::counted(found, "effect")
-                ),
+                format!("--for separate: found {}, expected two", counted(found, "effect")),
                 "name both: --for separate 'joint_compliance@joint 2' 'link_compliance@link 2'",
             )),
             (_, [first, ..]) => Err(Failure::new(format!(

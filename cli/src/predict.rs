@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use nalgebra::Vector6;
 use serde::Serialize;
+use stiffarm_document::Unit;
+use stiffarm_document::text::{bold, counted, dim};
 use stiffarm_gap::Measurements;
 use stiffarm_gap::effects::Catalogue;
 use stiffarm_gap::gap::{Statistics, row_gap};
@@ -14,15 +16,12 @@ use stiffarm_gap::whole::Whole;
 use stiffarm_plant::csv;
 
 use super::Verdict;
-use crate::document::Unit;
 use crate::host::Host;
 use crate::input::data::{self, BenchArgs};
-use crate::input::quantity::counted;
 use crate::input::source::{RobotArgs, Source};
 use crate::terminal::failure::Failure;
 use crate::terminal::json;
 use crate::terminal::output::Target;
-use crate::terminal::text::{bold, dim};
 
 const EXAMPLES: &str = "\
 Examples:

@@ -3,6 +3,7 @@
 use serde::Serialize;
 use stiffarm_codegen::derive::{Output, derive};
 use stiffarm_codegen::robot::{Convention, Motion, Robot};
+use stiffarm_document::text::{Align, bold, dim, indented, table};
 use stiffarm_robots::{ARMS, SYMBOLIC};
 
 use super::Verdict;
@@ -11,7 +12,6 @@ use crate::input::source;
 use crate::terminal::failure::Failure;
 use crate::terminal::json;
 use crate::terminal::output::Target;
-use crate::terminal::text::{Align, bold, dim, indented, table};
 
 /// The built-in robots: their joints, what their files know, and what a Jacobian costs
 #[derive(clap::Args)]

@@ -5,6 +5,7 @@ mod log;
 use std::path::PathBuf;
 
 use clap::ValueEnum;
+use stiffarm_document::text::{counted, short};
 use stiffarm_gap::Measurements;
 use stiffarm_gap::diagnose::Nuisance;
 use stiffarm_gap::effects::Known;
@@ -16,13 +17,11 @@ use stiffarm_plant::{Frames, Noise, Plant, Truth, csv};
 
 use super::Verdict;
 use crate::host::Host;
-use crate::input::quantity::counted;
 use crate::input::source::{RobotArgs, Source};
 use crate::input::{data, quantity};
 use crate::motion::{MotionArgs, RecordArgs};
 use crate::terminal::failure::Failure;
 use crate::terminal::output::Target;
-use crate::terminal::text::short;
 
 const EXAMPLES: &str = "\
 Examples:

@@ -5,6 +5,8 @@ mod motion;
 
 use std::path::PathBuf;
 
+use stiffarm_document::text::counted;
+use stiffarm_document::{Embedded, TOP};
 use stiffarm_gap::Options;
 use stiffarm_gap::whole::Whole;
 use stiffarm_kernels::generic::Arm;
@@ -13,10 +15,8 @@ use stiffarm_study::withhold::{Campaign, Experiment, Plan, Report, with_findings
 
 use super::Verdict;
 use super::simulate::ExperimentArgs;
-use crate::document::{Embedded, TOP};
 use crate::host::Host;
 use crate::input::named;
-use crate::input::quantity::counted;
 use crate::input::source::RobotArgs;
 use crate::motion::{MotionArgs, RecordArgs};
 use crate::terminal::failure::Failure;
@@ -93,7 +93,7 @@ pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
         if args.motion { motion::report(args, host)? } else { (report(args, host)?, false) };
     let document = document::document(&report, position_log);
     host.put(&args.json, || json::text(&report))?;
-    host.put(&args.report, || document.html(&Embedded::new((), &report, "")?))?;
+    host.put(&args.report, || Ok(document.html(&Embedded::new((), &report, "")?)?))?;
     if !args.is_enough(host) {
         host.print(&document.text(TOP))?;
     }

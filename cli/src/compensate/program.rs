@@ -7,6 +7,7 @@ use stiffarm_codegen::derive::Given;
 use stiffarm_compensate::points::{Before, Controlled, Moved, Placed, Unmoved};
 use stiffarm_compensate::program::{Change, Fault, File, Language, Left, Point, Program, edited};
 use stiffarm_compensate::reach::{Search, rigid};
+use stiffarm_document::text::{counted, words};
 use stiffarm_gap::measurement::Dimension;
 use stiffarm_gap::whole::{Situation, Whole};
 
@@ -20,7 +21,6 @@ use crate::input::source::{RobotArgs, Source};
 use crate::terminal::failure::{Failure, Remark};
 use crate::terminal::output::Target;
 use crate::terminal::progress::Progress;
-use crate::terminal::text::words;
 
 /// A program, and what it does not say itself.
 #[derive(clap::Args)]
@@ -120,7 +120,7 @@ impl ProgramArgs {
         match missed {
             0 => Ok(Verdict::Good),
             _ => {
-                let all = quantity::counted(outcomes.len(), "point");
+                let all = counted(outcomes.len(), "point");
                 host.note(&format!("{missed} of {all} cannot be corrected and stay as they are"));
                 Ok(Verdict::Failed)
             }

@@ -2,12 +2,11 @@
 
 use stiffarm_compensate::points::{Moved, Unmoved};
 use stiffarm_compensate::program::{Left, Point, Program};
+use stiffarm_document::text::{Align, bold, counted, dim, indented, short, table, wrapped};
 use stiffarm_gap::io::{Columns, quoted};
 
 use super::rounded;
-use crate::input::quantity;
 use crate::input::source::Source;
-use crate::terminal::text::{Align, bold, dim, indented, short, table, wrapped};
 use stiffarm_gap::measurement::Dimension;
 
 /// A point and what became of it.
@@ -61,7 +60,7 @@ pub(super) fn moves(source: &Source, program: &Program, outcomes: &[Outcome<'_>]
 pub(super) fn screen(source: &Source, program: &Program, outcomes: &[Outcome<'_>]) -> String {
     let files: Vec<&str> = program.files.iter().map(|file| file.name.as_str()).collect();
     let all = outcomes.len() + program.left.len();
-    let points = quantity::counted(all, "point");
+    let points = counted(all, "point");
     let head = dim(format!("{}: {points}", files.join(", ")));
     let mut text = format!("{}\n{head}\n\n", bold(&source.robot.name));
     let mut moved: Vec<(&Point, &Moved)> =

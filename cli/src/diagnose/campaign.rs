@@ -5,6 +5,9 @@ use std::path::Path;
 use serde::Serialize;
 use sha2::{Digest, Sha256};
 use stiffarm_codegen::robot::Robot;
+use stiffarm_document::beside::{Accepted, Check, Compared, Hashes, Provenance};
+use stiffarm_document::campaign::{Campaign as Reported, Fitted};
+use stiffarm_document::{Document, Embedded};
 use stiffarm_gap::diagnose::{BesideLog, Diagnosed, Explanation, Nuisance, Prediction, Trust};
 use stiffarm_gap::effects::Catalogue;
 use stiffarm_gap::gap::Statistics;
@@ -15,9 +18,7 @@ use stiffarm_kernels::generic::Arm;
 
 use super::corrected::{Corrections, commented, made_from};
 use super::log::Part;
-use super::{Accepted, Check, Compared, Found, Hashes, Provenance, Settings, in_words};
-use crate::document::campaign::{Campaign as Reported, Fitted};
-use crate::document::{Document, Embedded};
+use super::{Found, Settings, accepted, compared as earlier, in_words, provenance};
 use crate::host::Host;
 use crate::input::source::Source;
 use crate::input::{data, quantity};
@@ -110,12 +111,12 @@ impl Campaign {
             (arm, data) = (mended.arm, mended.data);
         }
         let found = &diagnosed.diagnosis;
-        let made = Provenance::of(&first.path, hash, &source.text, host)?;
+        let made = provenance::of(&first.path, hash, &source.text, host)?;
         let compared = settings.compare.as_ref();
-        let compared = compared.map(|last| Compared::with(last, found, &made.hashes, host));
+        let compared = compared.map(|last| earlier::with(last, found, &made.hashes, host));
         let compared = compared.transpose()?;
         let has_positions = data.kind.components()[..3].contains(&true);
-        let judge = |tolerance| Accepted::judge(tolerance, found, check.as_ref(), has_positions);
+        let judge = |tolerance| accepted::judge(tolerance, found, check.as_ref(), has_positions);
         let accepted = tolerance.map(judge).transpose()?;
         Ok(Campaign {
             source,

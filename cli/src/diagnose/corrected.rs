@@ -6,12 +6,12 @@ use std::mem::take;
 
 use stiffarm_codegen::emit::{lost_in_mjcf, lost_in_urdf, mjcf, urdf};
 use stiffarm_codegen::robot::Robot;
+use stiffarm_document::words::capital;
 use stiffarm_gap::Measurements;
 use stiffarm_gap::corrected::{Corrected, Outcome, corrected};
 use stiffarm_gap::diagnose::{Diagnosed, Nuisance, NuisanceReport};
 use stiffarm_gap::effects;
 
-use crate::document::words::capital;
 use crate::input::source::Source;
 use crate::terminal::failure::Failure;
 

@@ -3,11 +3,12 @@
 use std::path::PathBuf;
 
 use serde::Serialize;
+use stiffarm_document::beside::LogCheck;
 use stiffarm_gap::diagnose::Prediction;
 use stiffarm_gap::log::model::Explained;
 
+use super::Found;
 use super::log::is_log;
-use super::{Found, LogCheck};
 use crate::host::Host;
 use crate::terminal::failure::Failure;
 

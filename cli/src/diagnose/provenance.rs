@@ -6,45 +6,24 @@
 use std::path::Path;
 use std::time::{Duration, SystemTime};
 
-use serde::Serialize;
 use sha2::{Digest, Sha256};
+use stiffarm_document::beside::{Hashes, Provenance};
 
 use crate::host::Host;
 use crate::terminal::failure::Failure;
 
-/// Of what and how.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Provenance {
-    /// As it was given, words with spaces in quotation marks.
-    pub command: String,
-    /// What the date is of, and the day.
-    pub date: Option<(&'static str, String)>,
-    pub hashes: Hashes,
-}
-
-/// SHA-256 of the bytes, in hexadecimal digits, as `sha256sum` prints them.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct Hashes {
-    /// Of the measurement file.
-    pub data_sha256: String,
-    /// Of the robot file, as it was read.
-    pub robot_sha256: String,
-}
-
-impl Provenance {
-    /// Of the measurement file at `path` with that hash, and the text of a robot file.
-    pub fn of(path: &Path, data: Sha256, robot: &str, host: &Host) -> Result<Provenance, Failure> {
-        let hashes = Hashes {
-            data_sha256: hexadecimal(&data.finalize()),
-            robot_sha256: hexadecimal(&Sha256::digest(robot)),
-        };
-        // What is no file, such as a pipe, has no date.
-        let about = std::fs::metadata(path).ok().filter(std::fs::Metadata::is_file);
-        let written = about.and_then(|about| about.modified().ok());
-        let words = host.words().into_iter().map(|word| quoted(&word));
-        let command = std::iter::once("stiffarm".to_owned()).chain(words).collect::<Vec<_>>();
-        Ok(Provenance { command: command.join(" "), date: date(written)?, hashes })
-    }
+/// Of the measurement file at `path` with that hash, and the text of a robot file.
+pub fn of(path: &Path, data: Sha256, robot: &str, host: &Host) -> Result<Provenance, Failure> {
+    let hashes = Hashes {
+        data_sha256: hexadecimal(&data.finalize()),
+        robot_sha256: hexadecimal(&Sha256::digest(robot)),
+    };
+    // What is no file, such as a pipe, has no date.
+    let about = std::fs::metadata(path).ok().filter(std::fs::Metadata::is_file);
+    let written = about.and_then(|about| about.modified().ok());
+    let words = host.words().into_iter().map(|word| quoted(&word));
+    let command = std::iter::once("stiffarm".to_owned()).chain(words).collect::<Vec<_>>();
+    Ok(Provenance { command: command.join(" "), date: date(written)?, hashes })
 }
 
 fn date(written: Option<SystemTime>) -> Result<Option<(&'static str, String)>, Failure> {

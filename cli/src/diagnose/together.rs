@@ -3,14 +3,15 @@
 
 use serde::Serialize;
 use stiffarm_codegen::robot::Robot;
+use stiffarm_document::beside::Said;
+use stiffarm_document::{Document, Embedded, figure, together};
 use stiffarm_gap::log::Model;
-use stiffarm_gap::spring::{Joined, Spring};
+use stiffarm_gap::spring::Spring;
 
 use super::campaign::Told as CampaignTold;
 use super::log::Told as LogTold;
 use super::log::{Part, is_log};
 use super::{Campaign, Catalogues, Found, Motion, Settings};
-use crate::document::{Document, Embedded, figure, together};
 use crate::host::Host;
 use crate::input::source::Source;
 use crate::terminal::failure::Failure;
@@ -25,21 +26,6 @@ pub struct Together {
     /// The log's model beside the springs of both.
     model: Model,
     said: Said,
-}
-
-/// What both say of what both see.
-#[derive(Clone, Debug, Serialize)]
-pub struct Said {
-    /// What a log has a joint's spring as.
-    pub effect: &'static str,
-    /// Joints of which both tell something and one has found something.
-    pub springs: Vec<Joined>,
-    /// What the campaign measures: `m` or `rad`.
-    pub measured_in: &'static str,
-    /// What is left of the campaign, root mean square: with its own springs, with those of both.
-    pub campaign: [f64; 2],
-    /// What is left of the log, as a part of the joints' sizes: the same.
-    pub log: [f64; 2],
 }
 
 /// The diagnosis as it is written.

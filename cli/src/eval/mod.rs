@@ -5,6 +5,7 @@ mod pose;
 use nalgebra::Vector6;
 use serde::Serialize;
 use stiffarm_codegen::derive::Given;
+use stiffarm_document::text::{Align, bold, counted, decimals, dim, indented, minus, table};
 use stiffarm_gap::measurement::Dimension;
 use stiffarm_gap::whole::{Situation, Whole};
 use stiffarm_kernels::Output;
@@ -19,7 +20,6 @@ use crate::input::wrench::wrench;
 use crate::terminal::failure::Failure;
 use crate::terminal::json;
 use crate::terminal::output::Target;
-use crate::terminal::text::{Align, bold, decimals, dim, indented, minus, table};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -132,7 +132,7 @@ pub fn run(args: &Args, host: &Host) -> Result<Verdict, Failure> {
 /// What is said beside posture and load: all that the arm's effects depend on.
 fn given_beside(args: &Args, source: &Source, arm: &Arm) -> Result<Given, Failure> {
     if let Some(sides) = args.sides.as_ref().filter(|sides| sides.len() != arm.dof()) {
-        let found = quantity::counted(sides.len(), "value");
+        let found = counted(sides.len(), "value");
         let message = format!("--sides: found {found}, expected {}", arm.dof());
         return Err(Failure::with_help(message, joints(source)));
     }
@@ -151,7 +151,7 @@ fn given_beside(args: &Args, source: &Source, arm: &Arm) -> Result<Given, Failur
 
 fn joints(source: &Source) -> String {
     let n = source.robot.dof();
-    let joints = quantity::counted(n, "joint");
+    let joints = counted(n, "joint");
     format!("{} has {joints}: one value for each, base to tip", source.robot.name)
 }
 

@@ -4,6 +4,7 @@ use nalgebra::{Isometry3, UnitQuaternion, Vector3, Vector6};
 use serde::Serialize;
 use stiffarm_codegen::derive::Given;
 use stiffarm_codegen::robot::{Family, Motion};
+use stiffarm_document::text::{Align, bold, dim, indented, minus, short, table};
 use stiffarm_gap::measurement::Dimension;
 
 use super::Args;
@@ -11,7 +12,6 @@ use crate::input::branches::{Branches, WITHIN};
 use crate::input::quantity;
 use crate::input::source::Source;
 use crate::terminal::failure::Failure;
-use crate::terminal::text::{Align, bold, dim, indented, minus, short, table};
 
 /// Every branch.
 #[derive(Serialize)]

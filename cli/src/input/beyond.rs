@@ -2,6 +2,7 @@
 
 use stiffarm_codegen::robot::beyond::EffectError;
 use stiffarm_codegen::robot::{Effect, Located, Robot, Spot};
+use stiffarm_document::text::words;
 use stiffarm_gap::corrected::{FoldError, folded};
 use stiffarm_gap::effects::{Catalogue, Depends, Known};
 use stiffarm_gap::log::known::{is_of_motion, is_of_torques};
@@ -11,7 +12,6 @@ use stiffarm_kernels::{Input, Output};
 
 use super::source::Source;
 use crate::terminal::failure::{Failure, Remark};
-use crate::terminal::text::words;
 
 impl Source {
     /// The robot as kernels are made of it: its effects compiled.

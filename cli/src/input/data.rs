@@ -4,6 +4,7 @@ use std::fs::File;
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
+use stiffarm_document::text::{counted, listed};
 use stiffarm_gap::Measurements;
 use stiffarm_gap::diagnose::Nuisance;
 use stiffarm_gap::doubts::doubts;
@@ -12,12 +13,10 @@ use stiffarm_gap::io::{MOST_MISTAKES, ReadError};
 use stiffarm_gap::measurement::Layout;
 use stiffarm_kernels::generic::Arm;
 
-use super::quantity::counted;
 use super::source::Source;
 use crate::host::Host;
 use crate::terminal::failure::{Failure, Remark};
 use crate::terminal::snippet;
-use crate::terminal::text::listed;
 
 /// What is known of the bench on which a file was measured.
 #[derive(Clone, Default, clap::Args)]

@@ -1,5 +1,6 @@
 //! Numbers on the command line: SI, or with a unit right behind them (`30deg`, `3e-05m`).
 
+use stiffarm_document::text::counted;
 use stiffarm_gap::io::plain;
 pub use stiffarm_gap::io::quantity as read;
 use stiffarm_gap::measurement::Dimension;
@@ -47,11 +48,6 @@ pub fn list(
         })
     });
     numbers.collect()
-}
-
-/// `1 value`, `2 values`.
-pub fn counted(n: usize, what: &str) -> String {
-    format!("{n} {what}{}", if n == 1 { "" } else { "s" })
 }
 
 #[cfg(test)]

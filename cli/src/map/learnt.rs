@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use nalgebra::Vector6;
+use stiffarm_document::text::counted;
 use stiffarm_gap::diagnose::{Expected, Explanation};
 use stiffarm_gap::effects::Catalogue;
 use stiffarm_gap::{DiagnoseError, diagnose_with};
@@ -10,8 +11,8 @@ use stiffarm_kernels::generic::Arm;
 
 use crate::diagnose::Settings;
 use crate::host::Host;
+use crate::input::data;
 use crate::input::source::Source;
-use crate::input::{data, quantity};
 use crate::terminal::failure::Failure;
 use crate::terminal::progress::Stages;
 
@@ -72,7 +73,7 @@ impl Learnt {
             return Err(Failure::with_help(format!("{file}: the diagnosis finds no effect"), help));
         }
         let name = path.file_name().map_or(file, |name| name.to_string_lossy().into_owned());
-        let name = format!("{} of {name}", quantity::counted(findings, "finding"));
+        let name = format!("{} of {name}", counted(findings, "finding"));
         Ok(Some(Learnt { explanation: found.explanation, name }))
     }
 

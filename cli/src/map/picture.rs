@@ -1,14 +1,14 @@
 //! A map as a picture.
 
 use askama::Template;
+use stiffarm_document::plot::{Scale, angle_ticks, isolines, number, ticks, viridis};
+use stiffarm_document::text::short;
 use stiffarm_study::dexterity::Map;
 
 use super::quantity_of::Quantity;
 use super::sweep::{Moved, Sweep};
 use crate::input::source::Source;
-use crate::plot::{Scale, angle_ticks, isolines, number, ticks, viridis};
 use crate::terminal::failure::Failure;
-use crate::terminal::text::short;
 
 /// About so many bands.
 const BANDS: usize = 8;

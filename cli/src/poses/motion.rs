@@ -1,5 +1,7 @@
 //! Commands of a motion whose log says most.
 
+use stiffarm_document::text::{bold, dim, indented, short, table};
+use stiffarm_document::words::words;
 use stiffarm_gap::effects::Spot;
 use stiffarm_kernels::generic::Arm;
 use stiffarm_plant::course::{Course, commands};
@@ -8,14 +10,12 @@ use stiffarm_study::excite::{Excitation, Plan, Purpose, excite};
 
 use super::Args;
 use crate::Verdict;
-use crate::document::words::words;
 use crate::host::Host;
 use crate::input::source::Source;
 use crate::motion;
 use crate::terminal::failure::Failure;
 use crate::terminal::output::Target;
 use crate::terminal::progress::{PARTS, Progress};
-use crate::terminal::text::{bold, dim, indented, short, table};
 
 /// Effects that are looked for where none is named: what every drive may have.
 const USUAL: [&str; 6] = [

@@ -1,13 +1,12 @@
 //! The plan as it is said: what the tests will tell.
 
+use stiffarm_document::Unit;
+use stiffarm_document::text::{Align, bold, counted, dim, indented, short, table};
 use stiffarm_gap::measurement::Dimension;
 use stiffarm_kernels::generic::Arm;
 use stiffarm_study::dexterity::design::{DEVIATIONS, Design, Expected, Plan, Planned, Purpose};
 
-use crate::document::Unit;
-use crate::input::quantity;
 use crate::input::source::Source;
-use crate::terminal::text::{Align, bold, dim, indented, short, table};
 
 /// At most a screen.
 pub fn screen(source: &Source, arm: &Arm, plan: &Plan, found: &Design) -> String {
@@ -18,7 +17,7 @@ pub fn screen(source: &Source, arm: &Arm, plan: &Plan, found: &Design) -> String
         bold(&source.robot.name),
         dim(format!(
             "{}; 1/κ of {} or more with L = {} m, K_C adds {} % or less",
-            quantity::counted(found.tests.len(), "posture"),
+            counted(found.tests.len(), "posture"),
             short(least(|t| t.inverse_condition)),
             short(found.length),
             short(100.0 * most),

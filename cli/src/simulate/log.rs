@@ -1,16 +1,15 @@
 //! The joint log of an arm that moves.
 
+use stiffarm_document::text::{counted, short};
 use stiffarm_plant::motion::{Logged, MotionTruth, MovingPlant, csv, known};
 
 use super::Args;
 use crate::Verdict;
 use crate::host::Host;
-use crate::input::quantity::counted;
 use crate::input::source::Source;
 use crate::motion::{self, Courses};
 use crate::terminal::failure::Failure;
 use crate::terminal::output::Target;
-use crate::terminal::text::short;
 
 /// Moves the arm and writes what it logs.
 pub(super) fn run(

@@ -8,8 +8,7 @@ use std::path::Path;
 use annotate_snippets::{AnnotationKind, Element, Level, Renderer, Snippet};
 use console::style;
 use stiffarm_codegen::robot::Located;
-
-use super::text::clipped;
+use stiffarm_document::text::clipped;
 
 /// Why a command could not do its work: exit status 2.
 #[derive(Debug)]
@@ -92,6 +91,7 @@ plain!(
     stiffarm_codegen::emit::SymbolicTable,
     stiffarm_study::dexterity::DexterityError,
     stiffarm_study::dexterity::design::SuspectError,
+    stiffarm_document::PageError,
     stiffarm_gap::diagnose::DiagnoseError,
     stiffarm_study::excite::ExciteError,
     stiffarm_gap::identify::measured::MeasuredError,

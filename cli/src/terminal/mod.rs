@@ -1,4 +1,4 @@
-//! What is said and written: text, JSON, errors with their place, remarks, progress, files.
+//! What is said and written: JSON, errors with their place, remarks, progress, files.
 
 pub mod failure;
 pub mod interrupt;
@@ -6,5 +6,4 @@ pub mod json;
 pub mod output;
 pub mod progress;
 pub mod snippet;
-pub mod text;
 pub mod whole;

@@ -2,13 +2,11 @@
 
 use std::collections::BTreeSet;
 
+use stiffarm_document::report::Method;
+use stiffarm_document::text::{counted, short};
+use stiffarm_document::words::{percent, words};
+use stiffarm_document::{Block, Cell, Document, Row, Table};
 use stiffarm_study::withhold::{Case, Confusion, Facts, Rate, Report};
-
-use crate::document::report::Method;
-use crate::document::words::{percent, words};
-use crate::document::{Block, Cell, Document, Row, Table};
-use crate::input::quantity::counted;
-use crate::terminal::text::short;
 
 /// How every check is made.
 const METHOD: &str = "\

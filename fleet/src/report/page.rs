@@ -7,7 +7,7 @@ use super::numbers::short;
 use super::pooled::{Outlier, Pooled};
 
 /// The style of all pages.
-const STYLE: &str = include_str!("../../../cli/src/document/style.css");
+const STYLE: &str = include_str!("../../../document/src/style.css");
 
 #[derive(Template)]
 #[template(path = "report.html")]

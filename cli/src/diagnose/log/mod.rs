@@ -1,6 +1,5 @@
 //! A joint log: known by its columns, diagnosed by its rows.
 
-mod check;
 mod files;
 mod motion;
 mod written;
@@ -10,7 +9,6 @@ use std::path::Path;
 use stiffarm_gap::io::Map;
 use stiffarm_gap::log::Names;
 
-pub use check::Check;
 pub use files::{Files, Part, files, is_log, parts, read};
 pub use motion::{Motion, Told};
 

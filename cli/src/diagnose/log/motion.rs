@@ -4,6 +4,10 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 use stiffarm_codegen::robot::Robot;
+use stiffarm_document::beside::LogCheck as Check;
+use stiffarm_document::log::{Fitted, Log as Reported, left};
+use stiffarm_document::text::counted;
+use stiffarm_document::{Document, Embedded};
 use stiffarm_gap::log::effects::Catalogue;
 use stiffarm_gap::log::model::Springs;
 use stiffarm_gap::log::{
@@ -14,14 +18,10 @@ use stiffarm_kernels::generic::Arm;
 
 use super::super::corrected::made_from;
 use super::super::{Found, PredictedLog, Settings};
-use super::Check;
 use super::files::{self, Part};
 use super::written::Written;
-use crate::document::log::{Fitted, Log as Reported, left};
-use crate::document::{Document, Embedded};
 use crate::host::Host;
 use crate::input::data::layout;
-use crate::input::quantity::counted;
 use crate::input::source::Source;
 use crate::terminal::failure::Failure;
 use crate::terminal::json;

@@ -1,13 +1,13 @@
 //! The arm with what a log has shown, as a robot file and as simulators read it.
 
 use stiffarm_codegen::robot::Robot;
+use stiffarm_document::words::capital;
 use stiffarm_gap::log::corrected::corrected;
 use stiffarm_gap::log::{Log, LogDiagnosis, Model};
 use stiffarm_gap::report::{Finding, Parameter};
 use stiffarm_kernels::generic::Arm;
 
 use super::super::corrected::{stands_in, without_own};
-use crate::document::words::capital;
 use crate::terminal::failure::Failure;
 
 /// A robot with what was found in it, and what that is.
