@@ -9,6 +9,7 @@
 //!
 //! This crate returns data and structured errors; it prints nothing.
 
+mod constants;
 pub mod corrected;
 pub mod diagnose;
 pub mod displacement;

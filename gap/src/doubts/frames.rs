@@ -7,6 +7,7 @@ use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
 use super::{reach, simulated, spread};
+use crate::constants::{FEWEST_POSES, LARGE_GAP};
 use crate::diagnose::{Nuisance, rigid};
 use crate::effects::Known;
 use crate::gap::rms;
@@ -15,14 +16,8 @@ use crate::measurement::{Measurements, Row, Stands};
 use crate::mistakes::moved;
 use crate::simulate::{Reading, simulate};
 
-/// Of the reach: lengths are held to a thousandth and zeros marked to a few, also on a bad arm.
-const LARGE_GAP: f64 = 0.02;
-
 /// Part of the gap's square that a motion of a frame explains where it is all that is amiss.
 pub(super) const NEARLY_ALL: f64 = 0.99;
-
-/// Poses below which a motion of both frames, nine numbers, explains too much by itself.
-pub(super) const FEWEST_POSES: usize = 6;
 
 /// Turns of the closed forms: each is exact where the other is, and together they approach the best of both.
 const TURNS: usize = 40;

@@ -3,8 +3,9 @@
 use nalgebra::UnitQuaternion;
 use stiffarm_kernels::generic::Arm;
 
-use super::frames::{FEWEST_POSES, NEARLY_ALL};
+use super::frames::NEARLY_ALL;
 use super::{simulated, spread};
+use crate::constants::FEWEST_POSES;
 use crate::gap::rms;
 use crate::io::Convention;
 use crate::io::shown;

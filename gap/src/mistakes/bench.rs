@@ -9,9 +9,10 @@ use core::f64::consts::{PI, TAU};
 use nalgebra::{Matrix3, Vector3, Vector6};
 use stiffarm_kernels::generic::Arm;
 
-use super::fit::{Left, NEARLY_ALL, best};
+use super::fit::{Left, best};
 use super::kind::{Entry, Mistake};
-use super::search::{ORDINARY, Search};
+use super::search::Search;
+use crate::constants::{FLAT_ARM, NEARLY_ALL_ROWS, ORDINARY_GAP};
 use crate::diagnose::{Options, Problem, aligned, prior_penalty, refit};
 use crate::gap::rms;
 use crate::instrument::View;
@@ -19,11 +20,6 @@ use crate::measurement::{Kind, Measurements, Row};
 
 /// Halvings of the step from one zero that is tried to the next, 15°: to a tenth of a milliradian.
 const HALVINGS: usize = 12;
-
-/// Part of the spread of the tool across a plane: where a mistake leaves less of the file's arm's the arm is flat, and where
-/// plates leave more of its own one plate would do for all. Joints that are read otherwise than they are meant leave more
-/// than a half of the first, and true mistakes less than a tenth of the second.
-const FLAT: f64 = 0.2;
 
 /// How many numbers a row has, where it has no pose.
 pub(super) fn numbers(data: &Measurements) -> Option<usize> {
@@ -67,7 +63,7 @@ impl Search<'_> {
         }
         let problem = Problem::new(&arm, &data, &options).ok()?;
         // Tolerances count against what arms leave beside them; an angle, by the reach.
-        let (length, angle) = (1.0 / (ORDINARY * self.reach), 1.0 / ORDINARY);
+        let (length, angle) = (1.0 / (ORDINARY_GAP * self.reach), 1.0 / ORDINARY_GAP);
         let weights = Vector6::new(length, length, length, angle, angle, angle);
         let fit = refit(&problem, aligned(&problem).ok()?, None, &weights).ok()?;
         let size = |gap: &Vector6<f64>| gap.component_mul(&weights).norm() / length;
@@ -76,12 +72,12 @@ impl Search<'_> {
         let size = best(self.kept, sizes.iter().copied());
         let is = thickness(&arm, data.rows.iter());
         let was = thickness(self.arm, rows.iter().map(|row| &self.rows.data.rows[*row]));
-        if is < FLAT * was && size > FLAT * is {
+        if is < FLAT_ARM * was && size > FLAT_ARM * is {
             return None;
         }
         size.is_finite().then_some(Left {
             size,
-            of_nearly_all: best(NEARLY_ALL, sizes.into_iter()),
+            of_nearly_all: best(NEARLY_ALL_ROWS, sizes.into_iter()),
             prior_penalty: prior_penalty(&problem, &fit.model),
             position,
             rotation: 0.0,

@@ -7,8 +7,7 @@ use core::ops::Range;
 use nalgebra::{Vector3, Vector6};
 use stiffarm_kernels::generic::{Arm, Convention, Joint};
 
-/// Nats that an amount costs that may be any: a turn over the milliradian to which a campaign tells it, `ln 2000π`, as MacKay's Occam factor has it.
-const ANY_AMOUNT: f64 = 8.7;
+use crate::constants::ANY_AMOUNT;
 
 /// rad in a degree.
 pub(super) const DEGREE: f64 = PI / 180.0;

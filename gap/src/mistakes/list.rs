@@ -7,6 +7,7 @@ use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
 use super::kind::{DEGREE, Entry, Mistake, Turns, own_wrench};
+use crate::constants::{POSES_OF_LOADS, STUCK_ROWS};
 use crate::measurement::{Kind, Measurements};
 
 /// Factors of a length that is told in millimetres for metres, in inches for metres or in inches for
@@ -28,14 +29,8 @@ const TWISTS: [i32; 5] = [90, -90, 180, 10, -10];
 /// Zeros: quarters of a turn.
 const ZEROS: [i32; 3] = [90, -90, 180];
 
-/// At fewer poses no unit of a load is told: of 48 arms at 6 to 11 poses one had another unit of its moments named.
-const POSES_OF_LOADS: usize = 12;
-
 /// Rows by which readings and positions may be apart.
 const ROWS: [i32; 6] = [1, -1, 2, -2, 3, -3];
-
-/// Fewer rows with one reading are a pose that was measured again, or a sweep of another joint.
-const STUCK_ROWS: usize = 8;
 
 /// Of a joint's stretches with one reading so many are tried, the longest first: a plan of sweeps has one a joint.
 const STUCK_RUNS: usize = 8;

@@ -18,6 +18,7 @@ use stiffarm_kernels::generic::Arm;
 use stiffarm_table::number::Number;
 use stiffarm_table::robot::{Angle, Convention, Joint, Robot, Value};
 
+use crate::constants::{BEST_ROWS, FEWEST_POSES, LARGE_GAP, NEARLY_ALL_ROWS};
 use crate::diagnose::{Nuisance, Options};
 use crate::doubts::frames::Displaced;
 use crate::doubts::{self, reach};
@@ -26,14 +27,10 @@ use crate::infer::{ascending, middle, percentile};
 use crate::measurement::Measurements;
 use crate::report::campaign::{Mistaken, Wrong};
 use crate::simulate::is_stream;
-use fit::{KEPT, NEARLY_ALL};
 use kind::{Entry, Mistake};
 use rows::Rows;
 pub(crate) use rows::moved;
-use search::{EXPLAINED, Found, Search, Tried};
-
-/// Fewer numbers do not tell frames and six zeros from a mistake: a dozen positions, or six poses.
-const LEAST_NUMBERS: usize = 36;
+use search::{Found, Search, Tried};
 
 /// Part of the reach that a rad of the tool's rotation counts: a tool's own length.
 const LEVER: f64 = 0.2;
@@ -64,8 +61,10 @@ pub(crate) fn find(
     options: &Options,
 ) -> Option<(Mistaken, Option<Mended>)> {
     let numbers = bench::numbers(data).unwrap_or(if data.kind.components()[3] { 6 } else { 3 });
-    let fits =
-        is_read(data) && !data.sim_given.contains(&true) && data.poses * numbers >= LEAST_NUMBERS;
+    // A dozen positions, or six poses.
+    let fits = is_read(data)
+        && !data.sim_given.contains(&true)
+        && data.poses * numbers >= 6 * FEWEST_POSES;
     let size = |row: &crate::measurement::Row| row.q.len() == arm.dof();
     let reach = reach(arm);
     if !fits || !data.rows.iter().all(size) || !reach.is_finite() || reach <= 0.0 {
@@ -82,7 +81,7 @@ pub(crate) fn find(
     let family: Vec<Arm> = others.iter().map(|(_, arm)| arm.clone()).collect();
     let extent = if data.kind.is_pose() { extent(data) } else { reach };
     let mut search = Search {
-        kept: KEPT,
+        kept: BEST_ROWS,
         arm,
         rows: Rows::of(arm, data, &options.known),
         all: Mistake::all(arm, data, family.len()),
@@ -96,8 +95,8 @@ pub(crate) fn find(
     let mut nothing = search.tried(Vec::new())?;
     let names: Vec<&str> = others.iter().map(|(robot, _)| robot.name.as_str()).collect();
     let mut found = search.run(&nothing, is_stream);
-    if matches!(found, Found::Nothing) && nothing.left.of_nearly_all > EXPLAINED * search.reach {
-        search.kept = NEARLY_ALL;
+    if matches!(found, Found::Nothing) && nothing.left.of_nearly_all > LARGE_GAP * search.reach {
+        search.kept = NEARLY_ALL_ROWS;
         nothing.left.size = nothing.left.of_nearly_all;
         found = search.run(&nothing, is_stream);
         // Rows that are just wrong are left out by the diagnosis.

@@ -3,12 +3,13 @@
 //! No list of round numbers holds them, and a linear step from the file does not reach them. The amount is looked for
 //! over its whole range with the frames in closed form, and the best are fitted as one more unknown.
 
-use core::f64::consts::{PI, TAU};
+use core::f64::consts::TAU;
 
 use stiffarm_kernels::Motion;
 
 use super::kind::{Entry, Mistake};
 use super::search::{FEW, Search, Tried};
+use crate::constants::{ABOVE_CHANCE, LEAST_AMOUNT};
 use crate::parallel;
 
 /// Steps of a turn: least squares converge from half of one, 7.5°, which is tried itself, too: midway from nothing no
@@ -28,23 +29,16 @@ const BEST: usize = 24;
 /// Of the frames' gap: what an amount explains a half of leaves less on few rows, too.
 const WORTH: f64 = 0.8;
 
-/// The least amount that is a mistake, rad, parts of the reach and 1. What is less is an effect of the arm, and the
-/// effects' own search is exact up to twice as much (zeros of 10°, lengths of a tenth of the reach).
-const LEAST: [f64; 3] = [5.0 * PI / 180.0, 0.05, 0.05];
-
 /// What holds zeros and springs where the file has them.
 const FAST: f64 = 1e-6;
-
-/// Zeros and springs explain something if the squares fall by so many times what they fall by chance.
-const MORE: f64 = 3.0;
 
 impl Mistake {
     /// Whether it is an amount by which arms are off.
     pub(super) fn is_small(&self, reach: f64) -> bool {
         match self {
-            Mistake::Off { entry, by, .. } if entry.is_angle() => by.abs() < LEAST[0],
-            Mistake::Off { by, .. } => by.abs() < LEAST[1] * reach,
-            Mistake::Geared { ratio, .. } => ratio.abs() < LEAST[2],
+            Mistake::Off { entry, by, .. } if entry.is_angle() => by.abs() < LEAST_AMOUNT[0],
+            Mistake::Off { by, .. } => by.abs() < LEAST_AMOUNT[1] * reach,
+            Mistake::Geared { ratio, .. } => ratio.abs() < LEAST_AMOUNT[2],
             _ => false,
         }
     }
@@ -133,7 +127,7 @@ impl Search<'_> {
         let (left, more) = fit.tightened(FAST).refined();
         let numbers = 2.0 * self.arm.dof() as f64;
         let measured = self.rows.data.kind.components().iter().filter(|is| **is).count() as f64;
-        let chance = MORE * numbers / (measured * left.told * left.rows);
+        let chance = ABOVE_CHANCE * numbers / (measured * left.told * left.rows);
         if left.size.powi(2) <= tried.left.size.powi(2) * (1.0 + chance) {
             put(&mut tried.mistakes, &more);
             tried.left = left;

@@ -6,45 +6,14 @@ use super::fit::{Fit, Left};
 use super::kind::Mistake;
 use super::off;
 use super::rows::Rows;
+use crate::constants::{
+    CERTAIN, CERTAIN_OF_LOADS, COUNTED_ROWS, FOREIGN_GAP, LARGE_GAP, LOADS_LEAVE, MISTAKE_LEAVES,
+    ORDINARY_GAP, SECOND_LEAVES,
+};
 use crate::diagnose::Options;
 use crate::doubts::reach;
+use crate::infer::constants::DISTINGUISHABLE;
 use crate::parallel;
-
-/// Of the reach: what 198 of 200 arms of `tests/withheld/mistakes.rs` leave beside fitted zeros and springs (the
-/// median 0.0002, the largest 0.0013). A smaller gap is asked for the units of its loads alone.
-pub(super) const ORDINARY: f64 = 1e-3;
-
-/// Of the reach: what a mistake that is named may leave: fifteen times as much as the worst of those arms.
-pub(super) const EXPLAINED: f64 = 0.02;
-
-/// Of the reach: a gap that no mistake makes smaller is no arm's. Rows of other poses leave 0.38 at least, arms
-/// 0.0013 at most, 25 and 200 of `tests/withheld/mistakes.rs`.
-pub(super) const UNEXPLAINED: f64 = 0.05;
-
-/// A mistake leaves at most this part of the gap. A number that is off by 90° or by a factor is nothing that
-/// zeros and springs are a half of; where moments needed no more than odds, 6 of 200 arms without one had one named,
-/// and 1 with it.
-const MOST_LEFT: f64 = 0.5;
-
-/// Another unit of the loads leaves at most this part: the springs made up for it.
-const MOST_LEFT_OF_LOADS: f64 = 1.1;
-
-/// A second mistake leaves at most this part of what the first has left.
-const MOST_LEFT_SECOND: f64 = 1.0 / 3.0;
-
-/// Rows count as so many at the most: what an arm does beside zeros and springs is alike in all of them.
-const MOST_ROWS: f64 = 60.0;
-
-/// Odds, in nats, by which mistakes that explain the same are told apart: 20 to 1.
-pub(super) const APART: f64 = 3.0;
-
-/// Odds against chance, in nats: 100 to 1 beside the number of mistakes that were tried.
-const CERTAIN: f64 = 4.6;
-
-/// The same against another unit or sign of the loads. Springs that are hardly seen make it likely by chance: of
-/// 200 arms without a mistake the luckiest came 1.6 nats above [`CERTAIN`], and 3 were above it; of 48 with another
-/// unit or sign that were named right the least lucky came 10 above.
-const CERTAIN_OF_LOADS: f64 = CERTAIN + 5.0;
 
 /// Rows by which all pairs are compared, with the frames in closed form, and pairs that are then fitted.
 pub(super) const FEW: usize = 36;
@@ -162,14 +131,14 @@ impl Search<'_> {
 
     /// Whether it is what arms leave, by zeros and springs that they have.
     fn is_ordinary(&self, left: &Left) -> bool {
-        left.size <= ORDINARY * self.reach && 0.5 * left.prior_penalty <= CERTAIN
+        left.size <= ORDINARY_GAP * self.reach && 0.5 * left.prior_penalty <= CERTAIN
     }
 
     /// Log-odds of what was tried, up to a constant.
     fn score(&self, tried: &Tried, floor: f64) -> f64 {
         let rarity: f64 = tried.mistakes.iter().map(|mistake| mistake.rarity()).sum();
         let turned = if self.base_is_known { tried.left.turned } else { 0.0 };
-        -tried.left.told * tried.left.rows.min(MOST_ROWS) * tried.left.size.max(floor).ln()
+        -tried.left.told * tried.left.rows.min(COUNTED_ROWS) * tried.left.size.max(floor).ln()
             - 0.5 * tried.left.prior_penalty
             - rarity
             - turned
@@ -192,20 +161,20 @@ impl Search<'_> {
             // Springs make up for another unit of all loads, at the cost of being no arm's.
             let is_load = |mistake: &Mistake| matches!(mistake, Mistake::Load { .. });
             let (part, certain) = match one.mistakes.iter().all(is_load) {
-                true => (MOST_LEFT_OF_LOADS, CERTAIN_OF_LOADS),
+                true => (LOADS_LEAVE, CERTAIN_OF_LOADS),
                 false => (part, CERTAIN),
             };
             // Beside a free reading in each row, rows that fit best say little of the others.
             let is_free = one.mistakes.iter().any(|mistake| mistake.is_stuck());
             let size = |left: &Left| if is_free { left.of_nearly_all } else { left.size };
             let ends = size(&one.left) <= part * size(&against.left);
-            let is_explained = one.left.size <= EXPLAINED * self.reach_without(&one.mistakes);
+            let is_explained = one.left.size <= LARGE_GAP * self.reach_without(&one.mistakes);
             ends && is_explained && gain > tried_all + certain
         });
         tried.sort_by(|a, b| self.score(b, floor).total_cmp(&self.score(a, floor)));
         let mut tried = tried.into_iter();
         let best = tried.next()?;
-        let level = self.score(&best, floor) - APART;
+        let level = self.score(&best, floor) - 0.5 * DISTINGUISHABLE;
         let same = tried.take_while(|one| self.score(one, floor) > level).collect();
         Some((best, same))
     }
@@ -263,13 +232,13 @@ impl Search<'_> {
 
     /// The mistakes. `nothing` is the file as it is.
     pub(super) fn run(&self, nothing: &Tried, is_stream: bool) -> Found {
-        let is_large = nothing.left.size > ORDINARY * self.reach;
+        let is_large = nothing.left.size > ORDINARY_GAP * self.reach;
         if !is_large {
             // What loads do is of the size of what springs do, whatever their unit.
             let loads: Vec<&Mistake> =
                 self.all.iter().filter(|mistake| mistake.is_of_load()).collect();
             let tried = parallel::each(&loads, &|load| self.tried(vec![**load]));
-            let best = self.best(nothing, MOST_LEFT, tried.into_iter().flatten().collect());
+            let best = self.best(nothing, MISTAKE_LEAVES, tried.into_iter().flatten().collect());
             return best.map_or(Found::Nothing, |(best, same)| Found::Mistakes(best, same));
         }
         let singles = self.beside(&[]);
@@ -277,9 +246,9 @@ impl Search<'_> {
             let is_other = matches!(first.mistakes[..], [Mistake::Other(_)]);
             self.is_ordinary(&first.left) && !is_other
         };
-        let mut first = self.best(nothing, MOST_LEFT, singles.clone());
+        let mut first = self.best(nothing, MISTAKE_LEAVES, singles.clone());
         if !first.as_ref().is_some_and(is_plain) {
-            first = self.best(nothing, MOST_LEFT, [singles.clone(), self.offs(&[])].concat());
+            first = self.best(nothing, MISTAKE_LEAVES, [singles.clone(), self.offs(&[])].concat());
         }
         if let Some((first, same)) = first {
             if first.mistakes.iter().any(|mistake| mistake.is_small(self.reach)) {
@@ -287,13 +256,13 @@ impl Search<'_> {
             }
             if !self.is_ordinary(&first.left) {
                 let more = [self.beside(&first.mistakes), self.offs(&first.mistakes)].concat();
-                if let Some((both, same)) = self.best(&first, MOST_LEFT_SECOND, more) {
+                if let Some((both, same)) = self.best(&first, SECOND_LEAVES, more) {
                     return Found::Mistakes(both, same);
                 }
             }
             return Found::Mistakes(first, same);
         }
-        let best = |pairs| self.best(nothing, MOST_LEFT, pairs);
+        let best = |pairs| self.best(nothing, MISTAKE_LEAVES, pairs);
         let pairs = match self.bench {
             Some(_) => best(self.pairs_with(singles)),
             None => best(self.pairs()).or_else(|| best(self.pairs_with_zeros())),
@@ -301,7 +270,7 @@ impl Search<'_> {
         if let Some((pair, same)) = pairs {
             return Found::Mistakes(pair, same);
         }
-        match nothing.left.size > UNEXPLAINED * self.reach && !is_stream {
+        match nothing.left.size > FOREIGN_GAP * self.reach && !is_stream {
             true => Found::Unexplained,
             false => Found::Nothing,
         }

@@ -18,6 +18,7 @@ use stiffarm_kernels::generic::{self, Arm, Convention};
 
 use super::kind::Mistake;
 use super::rows::Rows;
+use crate::constants::{BEST_ROWS, NEARLY_ALL_ROWS};
 use crate::doubts::reach;
 use crate::gap::rms;
 use crate::infer::ascending;
@@ -40,13 +41,6 @@ const SOFTNESS: f64 = 3e-5;
 /// Where Cauchy's weights are a half, in squares of the scale: nine of ten rows of a normal law weigh more.
 const FLAT: f64 = 9.0;
 
-/// Part of the rows by which mistakes are judged that are seen in few of them: a coupling in sweeps of single joints, a
-/// reading that sticks for a while. Of a tracker's rows fewer are just wrong.
-pub(super) const NEARLY_ALL: f64 = 0.97;
-
-/// Part of the rows, those that fit best, whose spread is the scale of the fit.
-pub(super) const KEPT: f64 = 0.75;
-
 /// Turns of the closed forms, and steps of the least squares.
 const TURNS: usize = 12;
 const STEPS: usize = 12;
@@ -59,7 +53,7 @@ const SETTLED: f64 = 0.999;
 pub(super) struct Left {
     /// Root mean square of those rows that fit best, m; a rotation counts by a lever.
     pub size: f64,
-    /// The same of [`NEARLY_ALL`] rows.
+    /// The same of [`NEARLY_ALL_ROWS`] rows.
     pub of_nearly_all: f64,
     /// How far zeros and springs went from what the file says, in squares of their prior scales.
     pub prior_penalty: f64,
@@ -204,7 +198,7 @@ impl Fit {
             soft: soft.collect(),
             open,
             tight: 1.0,
-            kept: KEPT,
+            kept: BEST_ROWS,
             first_base,
             rows,
             arm,
@@ -315,7 +309,7 @@ impl Fit {
 
     /// Root mean square of the rows that fit best.
     fn scale(&self, gaps: &[Gap]) -> f64 {
-        best(KEPT, gaps.iter().map(|gap| self.size(gap)))
+        best(BEST_ROWS, gaps.iter().map(|gap| self.size(gap)))
     }
 
     /// Of Cauchy's form, with the priors.
@@ -343,7 +337,7 @@ impl Fit {
         let sizes = || gaps.iter().map(|gap| self.size(gap));
         Left {
             size: best(self.kept, sizes()),
-            of_nearly_all: best(NEARLY_ALL, sizes()),
+            of_nearly_all: best(NEARLY_ALL_ROWS, sizes()),
             prior_penalty: self.prior_penalty(),
             position: of(|gap| gap.0.norm()),
             rotation: of(|gap| gap.1.norm()),
