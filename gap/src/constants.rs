@@ -78,3 +78,84 @@ pub(crate) const ABOVE_CHANCE: f64 = 3.0;
 /// where plates leave more of its own one plate would do for all. Joints that are read otherwise than they are meant
 /// leave more than a half of the first, and true mistakes less than a tenth of the second.
 pub(crate) const FLAT_ARM: f64 = 0.2;
+
+// What is enough to tell anything, and what counts as nothing.
+
+/// Fewer of a kind (runs of a log, joints of an arm) do not tell what is usual among them: of two neither is the one
+/// that is unlike.
+pub(crate) const FEWEST_OF_A_KIND: usize = 3;
+
+/// Fewer blocks of time tell nothing: the signs of eight can be set in 2⁸ ways, two of which are as far from zero as
+/// what was measured, a p value of 1/128; of fewer none is below
+/// [`BEYOND_NOISE`](crate::infer::constants::BEYOND_NOISE).
+pub(crate) const FEWEST_BLOCKS: usize = 8;
+
+/// What is less than this part of the largest of its kind is nothing: a joint that is slower than this part of its
+/// largest speed stands, and one that moves by less than this part of what the one that moves most does, and by less
+/// than as many rad or m, is parked. An encoder's noise is less.
+pub(crate) const UNCHANGED: f64 = 5e-3;
+
+// Readings of a log.
+
+/// Steps between samples that recorders of joints have, s, from the shortest to the longest. Those of 50 to 1000 Hz
+/// stand apart from either end by ten or more, and a unit is a thousand.
+pub(crate) const FAIR_STEPS: [f64; 2] = [5e-5, 0.5];
+
+/// A jump is a whole turn to this part of one: what the joint moves between two samples is in it, and at 50 Hz that is
+/// an eighth of a turn only at 39 rad/s.
+pub(crate) const WHOLE_TURN: f64 = 0.125;
+
+/// A rate goes with its joint if so much of its square does; a fair one leaves some for noise and delays.
+pub(crate) const RATE_GOES: f64 = 0.5;
+
+/// Factors of a rate are told to this part: sensors' scales are right to a tenth, units differ by more than nine.
+pub(crate) const SAME_FACTOR: f64 = 0.1;
+
+/// A limit of a channel is one if this part of the samples stands at it, and [`LIMIT_TIMES`] as many as in as much of
+/// the range below it as this part is: a motion that turns round there has as many below it as at it.
+pub(crate) const LIMITED: f64 = 0.01;
+
+/// How many times as many samples stand at a limit as just below it.
+pub(crate) const LIMIT_TIMES: usize = 3;
+
+/// Samples beside one at a limit that are left out with it: a filter of the recorder rounds the edge.
+pub(crate) const BESIDE_LIMIT: usize = 3;
+
+/// What a simple model leaves of a joint's torque, as a part of its spread, from which on mistakes of its columns are
+/// asked for: real arms leave half of it at most (a Panda up to 60 Hz, without anything but Coulomb friction).
+pub(crate) const BAD_TORQUE: f64 = 0.5;
+
+/// The same from which on a zero is asked for: friction hides what one does to the weights where less is left.
+pub(crate) const FAIR_TORQUE: f64 = 0.1;
+
+/// No smaller zero is asked for, 15°: by less a base leans, and effects say so.
+pub(crate) const LEAST_ZERO: f64 = PI / 12.0;
+
+/// The torque of a joint and the joint itself, turned round, leave the same if the logarithms of what they leave differ
+/// by less, sum over the joints: where neither gravity nor another joint tells its sides apart, as of a last joint
+/// about its own axis, friction and inertia are the same of both.
+pub(crate) const SAME_SIGNS: f64 = 0.05;
+
+/// A delay of all torques, or a body of its own in each run, comes before all effects if what is left shrinks by this
+/// part with it, mean over the joints (of a delay, its logarithm does). What leaves less to the others is found among
+/// them: a torque that is late by so little is in proportion to its rate.
+pub(crate) const SHRINKS: f64 = 0.2;
+
+/// Two masses are of two things that differ by more than this part of the range of all: masses of one thing scatter by
+/// less where runs carry different things at all.
+pub(crate) const THINGS_APART: f64 = 0.25;
+
+// Effects in a log.
+
+/// How often a ripple stands out by accident in a log, over all joints: it is then likely to be named, and comes on top
+/// of the findings' own 0.05.
+pub(crate) const ACCIDENT: f64 = 0.02;
+
+/// Of the robot file's value, the part by which an estimate of zero may come out below it: what is taken back at all is
+/// so by twice its standard deviation (p of 0.05), which is then a tenth of it where the finding is plain.
+pub(crate) const BELOW_ZERO: f64 = 0.1;
+
+/// Of the robot file's value, the least part that is taken back. The signs of speeds are read wrongly where a joint
+/// turns round, and friction seems smaller by as much: of 120 logs without a cause two had such a finding, of a
+/// thousandth of the file's.
+pub(crate) const TAKEN_BACK: f64 = 0.05;

@@ -11,7 +11,6 @@ use super::read::{Log, Signal, TorqueSide};
 use super::readings::{Readings, placeholder};
 use super::rigid::{Base, body, moved, report};
 use super::scene::Domain;
-use super::search::blocks::LEAST;
 use super::search::case::{Case, FOUND, Simple, Wanted};
 use super::search::dictionary::{Dictionary, Mixed};
 use super::search::fit::{Fitted, Links, Term};
@@ -21,12 +20,10 @@ use super::search::springs::Springs;
 use super::search::unseen::Unseen;
 use super::search::{self, Round, Search, effective};
 use super::told::{Before, Told};
+use crate::constants::{FEWEST_BLOCKS, UNCHANGED};
 use crate::measurement::Body;
 use crate::report::log::{Evidence, Filter, LogDiagnosis, Unexplained};
 use crate::signal::Signals;
-
-/// A joint that is slower than this part of its largest speed counts as standing.
-const STILL: f64 = 0.005;
 
 /// Times that a log is gone through again where effects bend: each makes the error of their values about
 /// its square.
@@ -280,12 +277,12 @@ fn prepared(
     options.checked(log.period())?;
     let mut signals = Signals::of(log, drive, options.band);
     let (found, expected) =
-        (signals.rows() as f64 * signals.step(), 2.0 * LEAST as f64 * signals.reach());
+        (signals.rows() as f64 * signals.step(), 2.0 * FEWEST_BLOCKS as f64 * signals.reach());
     if found < expected {
         return Err(Refused::TooShort { file: log.files.join(", "), found, expected });
     }
     let fastest = |v: &Vec<f64>| v.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-    let still = |v: &Vec<f64>| options.standstill.unwrap_or(STILL * fastest(v));
+    let still = |v: &Vec<f64>| options.standstill.unwrap_or(UNCHANGED * fastest(v));
     let still: Vec<f64> = signals.qd.iter().map(still).collect();
     signals.mark_ways(&still);
     Ok((signals, still))

@@ -8,7 +8,7 @@ use super::problem::Problem;
 use crate::diagnose::options::Options;
 use crate::diagnose::report::NoiseReport;
 use crate::gap::rms;
-use crate::infer::constants::UNEXPLAINED;
+use crate::infer::constants::BEYOND_NOISE;
 use crate::measurement::{Kind, Row};
 
 /// Fewer repeats than this (rows beyond the first of each pose and load) say nothing of the noise.
@@ -179,7 +179,7 @@ impl Noise {
             let freedom = f64::from(rows) * level.per_row - share * parameters as f64;
             let more = squares > freedom * (EXCESS * level.sd).powi(2);
             let p_value = level.p_value(squares, freedom);
-            more && p_value.is_some_and(|p| p * (judged as f64) < UNEXPLAINED)
+            more && p_value.is_some_and(|p| p * (judged as f64) < BEYOND_NOISE)
         })
     }
 }

@@ -8,7 +8,7 @@ use crate::diagnose::options::DiagnoseError;
 use crate::diagnose::report::{Share, Unexplained};
 use crate::diagnose::search::{Explained, First, Search};
 use crate::effects::Place;
-use crate::infer::constants::UNEXPLAINED;
+use crate::infer::constants::BEYOND_NOISE;
 use crate::infer::{Asked, Observations};
 
 /// Displacements of free form that are tried beside each other.
@@ -32,7 +32,7 @@ impl Search<'_, '_> {
         let asked = Asked::new(screen, self.scale(now), self.options.seed);
         let mut places: BTreeMap<Place, f64> = BTreeMap::new();
         let mut about: BTreeMap<About, f64> = BTreeMap::new();
-        let found = asked.ranked.iter().filter(|one| asked.is_found(one, UNEXPLAINED));
+        let found = asked.ranked.iter().filter(|one| asked.is_found(one, BEYOND_NOISE));
         for one in found {
             let Source::Probe(probe) = &probes[one.candidate].source else { continue };
             let share = 1.0 - asked.held_out(one.candidate).white / asked.before.white;

@@ -6,44 +6,20 @@ use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
 use super::Misread;
+use crate::constants::{
+    FAIR_STEPS, LIMIT_TIMES, LIMITED, MISTAKE_LEAVES, RATE_GOES, SAME_FACTOR, UNCHANGED, WHOLE_TURN,
+};
 use crate::log::{Log, Run, Signal};
-
-/// Steps between samples that no recorder of joints has, s: slower, and faster. They stand apart from those of 50 to
-/// 1000 Hz by more than ten each, and a unit is a thousand.
-const SLOWEST: f64 = 0.5;
-const FASTEST: f64 = 5e-5;
-
-/// A jump is a whole turn to this part of one: what the joint moves between two samples is in it.
-const WHOLE: f64 = 0.125;
 
 /// Time over which a change of a joint is compared with the integral of its rate, s: many samples, and less than what a
 /// motion takes to turn round.
 const OVER: f64 = 0.05;
-
-/// A rate goes with its joint if so much of its square does; a fair one leaves some for noise and delays.
-const GOES: f64 = 0.5;
-
-/// A joint goes against its command if it is off by less than this part of what it is otherwise with its sign turned round;
-/// one that follows is off by less, whichever its delay.
-const AGAINST: f64 = 0.5;
 
 /// Delays of a servo that are tried, s: up to, in steps.
 const FOLLOWS: [f64; 2] = [0.5, 0.02];
 
 /// Samples that are enough for a sign.
 const ENOUGH: usize = 20_000;
-
-/// Factors are told to this part: sensors' scales are right to a tenth, units differ by more than nine.
-const ALIKE: f64 = 0.1;
-
-/// A joint is parked that moves by less than this part of what the one that moves most does, and by less than this, rad or
-/// m: an encoder's noise.
-const PARKED: f64 = 5e-3;
-
-/// A limit is one if this part of the samples stands at it, and so many times as many as in as much of the range below it
-/// as this part is.
-const LIMITED: f64 = 0.01;
-const TIMES: usize = 3;
 
 /// All of them; `drive` is what drives the joints in the rows, if torques are looked at.
 pub(super) fn found(arm: &Arm, log: &Log, drive: Option<Signal>) -> Vec<Misread> {
@@ -56,7 +32,7 @@ pub(super) fn found(arm: &Arm, log: &Log, drive: Option<Signal>) -> Vec<Misread>
     let log = &*read.mended(log);
     let ranges: Vec<f64> = (0..arm.dof()).map(|j| range(log, Signal::Q, j)).collect();
     let most = ranges.iter().copied().fold(0.0, f64::max);
-    let parked = |j: &usize| ranges[*j] <= (PARKED * most).min(PARKED);
+    let parked = |j: &usize| ranges[*j] <= (UNCHANGED * most).min(UNCHANGED);
     all.extend(rates(arm, log, &|j| !parked(&j)));
     let moving = (0..arm.dof()).filter(|j| !parked(j));
     all.extend(moving.filter(|j| is_against(log, *j)).map(|joint| Misread::Against { joint }));
@@ -90,7 +66,7 @@ fn range(log: &Log, signal: Signal, joint: usize) -> f64 {
 
 fn time(log: &Log) -> Option<Misread> {
     let period = log.period();
-    let is_fair = |factor: f64| (FASTEST..SLOWEST).contains(&(factor * period));
+    let is_fair = |factor: f64| (FAIR_STEPS[0]..FAIR_STEPS[1]).contains(&(factor * period));
     if is_fair(1.0) {
         return None;
     }
@@ -100,7 +76,7 @@ fn time(log: &Log) -> Option<Misread> {
 /// By how many turns a step between two samples is a jump.
 fn turns(step: f64) -> f64 {
     let turns = (step / TAU).round();
-    if turns != 0.0 && (step / TAU - turns).abs() < WHOLE { turns } else { 0.0 }
+    if turns != 0.0 && (step / TAU - turns).abs() < WHOLE_TURN { turns } else { 0.0 }
 }
 
 fn wrapped(log: &Log, signal: Signal, joint: usize) -> Option<Misread> {
@@ -143,7 +119,7 @@ fn ratio(log: &Log, joint: usize) -> Option<f64> {
             its += summed * summed;
         }
     }
-    (with * with > GOES * own * its).then(|| with / own)
+    (with * with > RATE_GOES * own * its).then(|| with / own)
 }
 
 /// Rates that are none of their joints', or in another unit; of joints that move.
@@ -153,7 +129,8 @@ fn rates(arm: &Arm, log: &Log, moves: &dyn Fn(usize) -> bool) -> Vec<Misread> {
     }
     let ratios: Vec<(usize, Option<f64>)> =
         (0..arm.dof()).filter(|j| moves(*j)).map(|j| (j, ratio(log, j))).collect();
-    let is = |ratio: Option<f64>, of: f64| ratio.is_some_and(|r| (r / of - 1.0).abs() < ALIKE);
+    let is =
+        |ratio: Option<f64>, of: f64| ratio.is_some_and(|r| (r / of - 1.0).abs() < SAME_FACTOR);
     let turns = |j: usize| arm.joints[j].motion == Motion::Revolute;
     let degrees = 180.0 / PI;
     // All stamps a thousand times too large make a rate's integral so.
@@ -197,7 +174,7 @@ fn is_against(log: &Log, joint: usize) -> bool {
     let least = |sign: f64| {
         (0..=most).step_by(step).map(|lag| left(sign, lag)).fold(f64::INFINITY, f64::min)
     };
-    least(-1.0) < AGAINST * AGAINST * least(1.0)
+    least(-1.0) < MISTAKE_LEAVES * MISTAKE_LEAVES * least(1.0)
 }
 
 /// A channel that stands at its ends: both of them, or one.
@@ -208,7 +185,7 @@ fn clipped(log: &Log, signal: Signal, joint: usize) -> Option<Misread> {
     let (span, round) = (LIMITED * (high - low), 1e-9 * low.abs().max(high.abs()));
     let within = |from: f64, to: f64| all.iter().filter(|x| **x >= from && **x <= to).count();
     let is_limit = |there: usize, near: usize| {
-        there as f64 > LIMITED * all.len() as f64 && there > TIMES * (near - there)
+        there as f64 > LIMITED * all.len() as f64 && there > LIMIT_TIMES * (near - there)
     };
     let at = [within(low, low + round), within(high - round, high)];
     let near = [within(low, low + span), within(high - span, high)];

@@ -2,17 +2,12 @@
 
 use super::Misread;
 use super::plain::Plain;
+use crate::constants::{SHRINKS, THINGS_APART};
 use crate::effects::{Place, Spot};
 use crate::log::TorqueSide;
 use crate::log::effects::PAYLOAD;
 use crate::log::search::case::{Case, Wanted};
 use crate::log::search::fit::Links;
-
-/// Runs carry different things if what is left shrinks by this part with a body of its own in each, mean over the joints.
-const SHRINKS: f64 = 0.2;
-
-/// Two masses are of two things that differ by more than this part of the range of all.
-const APART: f64 = 0.25;
 
 /// Of each thing the runs that carry it, those that carry least apart.
 pub(super) fn found(case: &Case<'_>) -> Vec<Misread> {
@@ -44,7 +39,7 @@ pub(super) fn found(case: &Case<'_>) -> Vec<Misread> {
     order.sort_by(|a, b| mass(*a).total_cmp(&mass(*b)));
     let range = mass(order[order.len() - 1]) - mass(order[0]);
     let mean = |of: &[usize]| of.iter().map(|run| mass(*run)).sum::<f64>() / of.len() as f64;
-    let mut things = order.chunk_by(|a, b| mass(*b) - mass(*a) <= APART * range);
+    let mut things = order.chunk_by(|a, b| mass(*b) - mass(*a) <= THINGS_APART * range);
     let least = things.next().map_or(0.0, mean);
     let held = |thing: &[usize]| {
         // Runs that were averaged carry the same.

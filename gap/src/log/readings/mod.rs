@@ -17,6 +17,7 @@ use stiffarm_kernels::generic::Arm;
 
 use super::read::{Clock, Hole, Log, Signal};
 use super::search::case::Case;
+use crate::constants::BESIDE_LIMIT;
 pub use sentences::placeholder;
 
 /// One thing that is wrong. Joints and runs count from 0.
@@ -48,9 +49,6 @@ pub enum Misread {
     /// Runs carry something that the others do not, kg more, and no column says so.
     Held { runs: Vec<usize>, mass: f64 },
 }
-
-/// Samples beside one at a limit that are left out with it: a filter of the recorder rounds the edge.
-const BESIDE: usize = 3;
 
 /// All that is wrong with a log's readings.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -141,8 +139,9 @@ impl Misread {
                 Misread::Clipped { signal, joint, limits, .. } => {
                     let Some(all) = run.signals.get(signal) else { continue };
                     let at = |x: &f64| *x <= limits[0] || *x >= limits[1];
-                    let beside =
-                        |k: usize| k.saturating_sub(BESIDE)..(k + BESIDE + 1).min(run.t.len());
+                    let beside = |k: usize| {
+                        k.saturating_sub(BESIDE_LIMIT)..(k + BESIDE_LIMIT + 1).min(run.t.len())
+                    };
                     let there = (0..run.t.len()).filter(|k| at(&all[*joint][*k])).map(beside);
                     let hole = |samples| Hole { signal: *signal, joint: *joint, samples };
                     run.holes.extend(there.map(hole));

@@ -8,24 +8,13 @@ use std::borrow::Cow;
 
 use super::Misread;
 use super::plain::{ENOUGH, Plain};
+use crate::constants::{BAD_TORQUE, MISTAKE_LEAVES, SAME_SIGNS};
 use crate::effects::{Facts, InMotion, Law, Place, Spot};
 use crate::log::Signal;
 use crate::log::scene::{Column, Scene};
 use crate::log::search::case::{Case, Wanted};
 use crate::log::search::fit::Links;
 use crate::signal::Signals;
-
-/// What a simple model leaves of a joint's torque, as a part of its spread, where nothing is asked: real arms leave
-/// half of it at most (a Panda up to 60 Hz, without anything but Coulomb friction).
-const BAD: f64 = 0.5;
-
-/// A mistake leaves of its joints less than this part of what they leave with it.
-pub(super) const LEAVES: f64 = 0.5;
-
-/// The torque of a joint and the joint itself, turned round, leave the same if the logarithms of what they leave differ by
-/// less, sum over the joints: where neither gravity nor another joint tells its sides apart, as of a last joint about its
-/// own axis, friction and inertia are the same of both.
-const SAME: f64 = 0.05;
 
 /// Mistakes of one log that are looked for.
 const MOST: usize = 3;
@@ -85,7 +74,7 @@ fn one(case: &Case<'_>, drive: Signal) -> Option<Misread> {
     let joints = (0..counts.len()).filter(|joint| counts[*joint].contains(&true)).collect();
     let asked = Asked { drive, joints };
     let spread = spreads(case, &asked.joints);
-    let is_well = |left: &[f64]| asked.joints.iter().all(|j| left[*j] < BAD * spread[*j]);
+    let is_well = |left: &[f64]| asked.joints.iter().all(|j| left[*j] < BAD_TORQUE * spread[*j]);
     let is = asked.without(case, ENOUGH);
     if !is_well(&is)
         && let Some(found) = asked.best(&is, asked.tried(case))
@@ -168,7 +157,7 @@ impl Asked {
         let best = (0..tried.len()).min_by(|a, b| sums[*a].total_cmp(&sums[*b]))?;
         let (misread, own, left) = &tried[best];
         let part = own.iter().map(|j| (left[*j] / is[*j]).ln()).sum::<f64>() / own.len() as f64;
-        if part >= LEAVES.ln() || sums[best] >= self.sum(is) {
+        if part >= MISTAKE_LEAVES.ln() || sums[best] >= self.sum(is) {
             return None;
         }
         let Misread::Sign { signal, joint, .. } = *misread else { return Some(misread.clone()) };
@@ -178,7 +167,7 @@ impl Asked {
         };
         let other = (0..tried.len()).filter(|k| is_other(&tried[*k].0));
         let is_told = other.min_by(|a, b| sums[*a].total_cmp(&sums[*b]));
-        match is_told.is_some_and(|k| sums[k] - sums[best] < SAME) {
+        match is_told.is_some_and(|k| sums[k] - sums[best] < SAME_SIGNS) {
             true => Some(Misread::Sign { signal: self.drive, joint, or: Some(Signal::Q) }),
             false => Some(misread.clone()),
         }

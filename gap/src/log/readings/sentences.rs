@@ -3,6 +3,7 @@
 use stiffarm_kernels::generic::{Arm, Drive};
 
 use super::Misread;
+use crate::constants::FEWEST_OF_A_KIND;
 use crate::log::{Log, Signal, TorqueSide};
 
 impl Misread {
@@ -116,7 +117,7 @@ impl Misread {
 
 /// What a robot file's friction looks like that nobody has measured: one number at every joint.
 pub fn placeholder(arm: &Arm, side: Option<TorqueSide>) -> Option<String> {
-    if arm.dof() < ALIKE || !side.is_some_and(TorqueSide::is_driven) {
+    if arm.dof() < FEWEST_OF_A_KIND || !side.is_some_and(TorqueSide::is_driven) {
         return None;
     }
     let drives = || arm.joints.iter().map(|joint| &joint.drive);
@@ -135,9 +136,6 @@ pub fn placeholder(arm: &Arm, side: Option<TorqueSide>) -> Option<String> {
         )
     })
 }
-
-/// Fewer joints may have motors of one type.
-const ALIKE: usize = 3;
 
 /// Three significant digits.
 fn shown(x: f64) -> String {

@@ -6,7 +6,8 @@ use stiffarm_kernels::Motion;
 
 use super::Misread;
 use super::plain::ENOUGH;
-use super::retold::{Asked, LEAVES, turn};
+use super::retold::{Asked, turn};
+use crate::constants::{FAIR_TORQUE, LEAST_ZERO, MISTAKE_LEAVES};
 use crate::log::search::case::Case;
 
 /// Angles that are tried: least squares of sines and cosines fall from half a step, 15°, without another minimum.
@@ -14,13 +15,6 @@ const ANGLES: usize = 12;
 
 /// Golden sections: of a step of 30° on either side these leave 0.03°, which moves a torque by less than any noise.
 const SECTIONS: usize = 16;
-
-/// What a simple model leaves of a joint's torque, as a part of its spread, from which on a zero is asked for: friction
-/// hides what one does to the weights.
-const FAIR: f64 = 0.1;
-
-/// No smaller zero is asked for: by less a base leans, and effects say so.
-const LEAST: f64 = PI / 12.0;
 
 /// Fine samples that are enough to find an angle among others.
 const FEW: usize = 5_000;
@@ -32,7 +26,7 @@ impl Asked {
     /// The joint whose zero is off and by how much, if without that less than a part is left of the torques of which
     /// something `is` left, told in their `spread`.
     pub(super) fn zero(&self, case: &Case<'_>, is: &[f64], spread: &[f64]) -> Option<Misread> {
-        let bad = self.joints.iter().filter(|j| is[**j] >= FAIR * spread[**j]);
+        let bad = self.joints.iter().filter(|j| is[**j] >= FAIR_TORQUE * spread[**j]);
         let bad: Vec<usize> = bad.copied().collect();
         if bad.is_empty() {
             return None;
@@ -72,7 +66,8 @@ impl Asked {
         let by = by - TAU * ((by - PI) / TAU).ceil();
         let after = left_of(joint, by, ENOUGH);
         let part = bad.iter().map(|j| (after[*j] / is[*j]).ln()).sum::<f64>() / bad.len() as f64;
-        let is_less = self.sum(&after) < self.sum(is) && part < LEAVES.ln() && by.abs() >= LEAST;
+        let is_less =
+            self.sum(&after) < self.sum(is) && part < MISTAKE_LEAVES.ln() && by.abs() >= LEAST_ZERO;
         is_less.then_some(Misread::Zero { joint, by })
     }
 }

@@ -6,6 +6,7 @@ use super::delay;
 use super::dictionary::{Dictionary, Mixed};
 use super::fit::{Links, Term};
 use super::ripples;
+use crate::constants::{BELOW_ZERO, TAKEN_BACK};
 use crate::log::TorqueSide;
 use crate::log::effects::{LogEffect, Spot};
 use crate::log::model::Acting;
@@ -19,15 +20,6 @@ pub const FOUND: f64 = 1e-3;
 
 /// Fine samples are enough for the simple model.
 const ENOUGH: usize = 60_000;
-
-/// Of the robot file's value, the part by which an estimate of zero may come out below it: what is taken back at all is
-/// so by twice its standard deviation (p of 0.05), which is then a tenth of it where the finding is plain.
-const NONE: f64 = 0.1;
-
-/// Of the robot file's value, the least part that is taken back. The signs of speeds are read wrongly where a joint turns
-/// round, and friction seems smaller by as much: of 120 logs without a cause two had such a finding, of a thousandth of the
-/// file's.
-const LEAST: f64 = 0.05;
 
 /// What is to be explained, and by what in any case.
 pub struct Case<'a> {
@@ -281,12 +273,12 @@ impl Case<'_> {
     pub fn is_feasible(&self, term: &Term) -> bool {
         let of = self.of_file(term.effect, term.spot);
         let is_little =
-            |(of, value): (&f64, &f64)| *of > 0.0 && *value < 0.0 && *value > -LEAST * of;
+            |(of, value): (&f64, &f64)| *of > 0.0 && *value < 0.0 && *value > -TAKEN_BACK * of;
         if of.iter().zip(&term.values).any(is_little) {
             return false;
         }
         let sum = of.iter().zip(&term.values).map(|(of, value)| match of + value {
-            sum if sum < 0.0 && sum >= -NONE * of => 0.0,
+            sum if sum < 0.0 && sum >= -BELOW_ZERO * of => 0.0,
             sum => sum,
         });
         term.effect.is_feasible(&sum.collect::<Vec<f64>>())

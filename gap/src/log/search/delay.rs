@@ -8,6 +8,7 @@
 use super::case::{Case, Simple, Wanted};
 use super::dictionary::Dictionary;
 use super::fit::{Fitted, Links, Term};
+use crate::constants::SHRINKS;
 use crate::effects::Place;
 use crate::log::effects::{COULOMB, LATENCY, OFFSET, SHIFT, Spot, VISCOUS};
 use crate::log::scene::Loads;
@@ -20,10 +21,6 @@ const STEP: f64 = 0.01;
 
 /// Steps on either side of the best, each again in so many parts.
 const PARTS: usize = 10;
-
-/// A delay is one before all effects if what is left shrinks by this part without it, mean over the joints. What leaves
-/// less to the others is found among them: a torque that is late by so little is in proportion to its rate.
-const SHRINKS: f64 = 0.2;
 
 /// How late all torques are told, s; 0 if it makes little difference.
 pub fn of_torques(case: &Case<'_>, nothing: &Simple, thinned: usize) -> f64 {

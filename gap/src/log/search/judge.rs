@@ -9,7 +9,7 @@ use super::explained::Explained;
 use super::fit::{Fitted, Links, Term};
 use super::normal_equations::Sums;
 use crate::effects::Place;
-use crate::infer::constants::{DISTINGUISHABLE, SIGNIFICANT};
+use crate::infer::constants::{BEYOND_NOISE, DISTINGUISHABLE, SIGNIFICANT};
 use crate::infer::{Answer, Doubt, students_t, worst};
 use crate::log::effects::{LINKS, SCALE, Spot};
 use crate::parallel;
@@ -129,10 +129,6 @@ impl Search<'_, '_> {
     }
 }
 
-/// How often chance leaves what does as well as a finding out of its set: the sets of 97 in 100 logs are to hold the
-/// truth.
-const LEFT_OUT: f64 = 0.01;
-
 /// Whether what one leaves of the blocks is told from what another leaves: the larger, by more than the
 /// blocks scatter, one-sided.
 fn is_worse(other: &[f64], best: &[f64]) -> bool {
@@ -140,7 +136,7 @@ fn is_worse(other: &[f64], best: &[f64]) -> bool {
     let n = differences.len() as f64;
     let mean = differences.iter().sum::<f64>() / n;
     let variance = differences.iter().map(|d| (d - mean).powi(2)).sum::<f64>() / (n - 1.0) / n;
-    mean > students_t(n - 1.0, 1.0 - LEFT_OUT) * variance.sqrt()
+    mean > students_t(n - 1.0, 1.0 - BEYOND_NOISE) * variance.sqrt()
 }
 
 /// Whether a body's numbers hold what a scale of all loads does: that body, so many times. It leaves as little, and on what

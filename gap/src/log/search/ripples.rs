@@ -10,13 +10,10 @@ use nalgebra::DMatrix;
 use stiffarm_kernels::Motion;
 
 use super::dictionary::Dictionary;
+use crate::constants::ACCIDENT;
 use crate::infer::{Signs, unit};
 use crate::log::pace::{ORDERS, PASSES};
 use crate::parallel;
-
-/// How often one stands out by accident in a log, over all joints: it is then likely to be named, and comes on top of
-/// the findings' own 0.05.
-const ACCIDENT: f64 = 0.02;
 
 /// Ripples of a joint that are asked for.
 const MOST: usize = 2;
