@@ -81,18 +81,19 @@ pub(crate) const FLAT_ARM: f64 = 0.2;
 
 // What is enough to tell anything, and what counts as nothing.
 
-/// Fewer of a kind (runs of a log, joints of an arm) do not tell what is usual among them: of two neither is the one
-/// that is unlike.
+/// Fewer of a kind (repeats of a reading, runs of a log, joints or arms of one type) do not tell what is usual among
+/// them: of two neither is the one that is unlike.
 pub(crate) const FEWEST_OF_A_KIND: usize = 3;
 
-/// Fewer blocks of time tell nothing: the signs of eight can be set in 2⁸ ways, two of which are as far from zero as
-/// what was measured, a p value of 1/128; of fewer none is below
+/// Fewer blocks of time, or numbers that are left, tell nothing of chance: the signs of eight can be set in 2⁸ ways,
+/// two of which are as far from zero as what was measured, a p value of 1/128; of fewer none is below
 /// [`BEYOND_NOISE`](crate::infer::constants::BEYOND_NOISE).
-pub(crate) const FEWEST_BLOCKS: usize = 8;
+pub(crate) const FEWEST_TO_JUDGE: usize = 8;
 
 /// What is less than this part of the largest of its kind is nothing: a joint that is slower than this part of its
-/// largest speed stands, and one that moves by less than this part of what the one that moves most does, and by less
-/// than as many rad or m, is parked. An encoder's noise is less.
+/// largest speed stands, one that moves by less than this part of what the one that moves most does, and by less than
+/// as many rad or m, is parked, and loads that differ by less than this part of the largest are the same. An encoder's
+/// noise is less, and so is a weight's tolerance.
 pub(crate) const UNCHANGED: f64 = 5e-3;
 
 // Readings of a log.
@@ -159,3 +160,68 @@ pub(crate) const BELOW_ZERO: f64 = 0.1;
 /// turns round, and friction seems smaller by as much: of 120 logs without a cause two had such a finding, of a
 /// thousandth of the file's.
 pub(crate) const TAKEN_BACK: f64 = 0.05;
+
+// Measurements of a campaign.
+
+/// Rows farther apart than this, s, are poses between which nobody knows how the arm moved: they have no rates, and are
+/// no stream. Programs that go from pose to pose take seconds, instruments that follow an arm tens of readings a
+/// second.
+pub(crate) const LONGEST_STEP: f64 = 1.0;
+
+/// Loads of a campaign are of one order: what is pulled with at a few rows by this factor more than at nine in ten of
+/// the others decides alone on every law by which the arm gives, and is left out at first.
+pub(crate) const FAR_LOAD: f64 = 5.0;
+
+/// Numbers of an instrument from which on its precision is its own: a standard deviation is then known to a sixth.
+pub(crate) const OWN_PRECISION: f64 = 20.0;
+
+/// An instrument that is a hundred times as precise as the others decides alone; one that seems more precise fits by
+/// chance.
+pub(crate) const MOST_PRECISE: f64 = 100.0;
+
+/// A noise that is told is not known better than to this factor: it is too small only where what remains exceeds it by
+/// more. A standard deviation is known to 5 % by two hundred numbers.
+pub(crate) const EXCESS: f64 = 1.05;
+
+// Doubts of what a file says.
+
+/// Trackers see tens of metres and the smallest arms reach half of one; from millimetres to metres it is a factor of a
+/// thousand.
+pub(crate) const MOST_REACHES: f64 = 100.0;
+
+/// A stiffness that no joint has, over the reach's cube, N/m². Arms of one shape and material stiffen with the cube of
+/// their size; of those with published springs the KUKA KR 240-2 is the stiffest, 6.6e6 N·m/rad at 3 m or 2.4e5 N/m².
+pub(crate) const STIFFEST_JOINT: f64 = 3e6;
+
+/// rad. Springs, zeros and levels turn nothing by so much: zeros are off by some mrad, a base is levelled or stands in
+/// no frame that is, springs are linear while an arm gives by less of its reach than this at its first joint. What is
+/// read in a wrong convention turns by a radian, and what is told in millimetres by hundreds.
+pub(crate) const LARGE_ANGLE: f64 = 0.1;
+
+/// Part of the gap's square that a motion of a frame, or another convention of angles, explains where it is all that is
+/// amiss: a tenth of the gap is left.
+pub(crate) const ALL_BY_FRAMES: f64 = 0.99;
+
+// What the data show.
+
+/// A number of the table whose column has less than this part left beside those before it is one with them: the square
+/// of a ratio of sizes of 3e-3. What is left is how the loads follow the arm.
+pub(crate) const ONE_WITH_OTHERS: f64 = 1e-5;
+
+/// An effect that moves what is measured by less than this part of what it does at its strongest place is idle there:
+/// what it does is lost beside what it does elsewhere.
+pub(crate) const IDLE: f64 = 1e-3;
+
+/// Less than this left of an effect beside geometry is called unseen, and a number that is less of another one is not
+/// named beside it: an effect would have to be some 20 times the noise to be told from it.
+pub(crate) const SEEN: f64 = 0.05;
+
+// Effects of a campaign.
+
+/// The part of the fall that the linear fit promises which the exact one has to keep: an effect that keeps less is
+/// another than the one that was chosen.
+pub(crate) const PROMISE_KEPT: f64 = 0.5;
+
+/// A number that is identified with a standard deviation of more than this part of it is weak: zero, a spring that does
+/// not give, is then within two of them.
+pub(crate) const WEAK: f64 = 0.5;

@@ -14,27 +14,15 @@ use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::{Arm, Joint};
 
 use crate::beyond;
+use crate::constants::{LARGE_ANGLE, MOST_REACHES, STIFFEST_JOINT};
 use crate::diagnose::Nuisance;
 use crate::infer::middle;
 use crate::io::shown;
 use crate::measurement::{Kind, Measurements, Row};
 use crate::simulate::{Reading, simulate};
 
-/// Trackers see tens of metres and the smallest arms reach half of one; from millimetres to metres it
-/// is a factor of a thousand.
-const MOST_REACHES: f64 = 100.0;
-
-/// Springs are linear while the arm gives by little: a tenth of its reach is a tenth of a radian at
-/// its first joint.
-const MOST_GIVEN: f64 = 0.1;
-
 /// Rows by which a motion of a frame is judged, spread over the file.
 const ENOUGH_ROWS: usize = 500;
-
-/// A stiffness that no joint has, over the reach's cube, N/m². Arms of one shape and material stiffen
-/// with the cube of their size; of those with published springs the KUKA KR 240-2 is the stiffest, 6.6e6
-/// N·m/rad at 3 m or 2.4e5 N/m².
-const STIFFEST: f64 = 3e6;
 
 /// What is to be doubted of `data` as measured on `arm`, a sentence each; `along` are the frames that
 /// are fitted along.
@@ -81,7 +69,7 @@ fn most(data: &Measurements, is: impl Fn(&Row) -> bool) -> bool {
 /// Positions and displacements that are too large for metres.
 fn lengths(data: &Measurements, reach: f64) -> Option<String> {
     let (most_metres, what) = match data.kind {
-        Kind::Displacement { .. } => (MOST_GIVEN * reach, "displaced"),
+        Kind::Displacement { .. } => (LARGE_ANGLE * reach, "displaced"),
         _ => (MOST_REACHES * reach, "away"),
     };
     let size = |row: &Row| length(&row.measured, 0);
@@ -125,8 +113,8 @@ fn angles(data: &Measurements) -> Option<String> {
 /// Loads under which a joint would turn by more than a radian, or slide by more than the reach.
 fn loads(arm: &Arm, data: &Measurements, reach: f64) -> Option<String> {
     let stiffest = |joint: &Joint| match joint.motion {
-        Motion::Revolute => STIFFEST * reach.powi(3),
-        Motion::Prismatic => STIFFEST * reach,
+        Motion::Revolute => STIFFEST_JOINT * reach.powi(3),
+        Motion::Prismatic => STIFFEST_JOINT * reach,
     };
     let compliance = |j: &Joint| if j.compliance > 0.0 { j.compliance } else { 1.0 / stiffest(j) };
     let most_given = |j: &Joint| if j.motion == Motion::Revolute { 1.0 } else { reach };

@@ -8,8 +8,10 @@
 use serde::Serialize;
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
+use crate::constants::FEWEST_OF_A_KIND;
+
 /// Arms below which nothing is said of the others.
-pub const FEWEST: usize = 3;
+pub const FEWEST: usize = FEWEST_OF_A_KIND;
 
 /// A number of an arm, and its standard error.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]

@@ -34,3 +34,7 @@ pub const OWN: f64 = 0.01;
 
 /// One term is exchanged for another only for this much more evidence: a factor of about five.
 pub const EXCHANGE: f64 = 3.0;
+
+/// A term that leads all others by this much evidence, odds of e³⁰, is not compared with them again for an exchange:
+/// what is added later does not change as much of the evidence for it.
+pub const SURE: f64 = 60.0;

@@ -4,7 +4,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::basis::Basis;
-use super::constants::EXCHANGE;
+use super::constants::{EXCHANGE, SURE};
 use super::evidence::Scale;
 use super::rank::Ranked;
 use super::score::price;
@@ -12,9 +12,6 @@ use super::screen::{Columns, Screen};
 
 /// Rounds of taking back and exchanging after each addition.
 const MOST_ROUNDS: usize = 12;
-
-/// A term that leads all others by this much evidence is not compared with them again.
-const SURE: f64 = 60.0;
 
 /// What a model is fitted to: a campaign's rows, a log's. Terms are an effect at a place each, told by their index.
 pub trait Observations {

@@ -7,7 +7,7 @@ use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::Arm;
 
 use super::{reach, simulated, spread};
-use crate::constants::{FEWEST_POSES, LARGE_GAP};
+use crate::constants::{ALL_BY_FRAMES, FEWEST_POSES, LARGE_GAP};
 use crate::diagnose::{Nuisance, rigid};
 use crate::effects::Known;
 use crate::gap::rms;
@@ -15,9 +15,6 @@ use crate::io::shown;
 use crate::measurement::{Measurements, Row, Stands};
 use crate::mistakes::moved;
 use crate::simulate::{Reading, simulate};
-
-/// Part of the gap's square that a motion of a frame explains where it is all that is amiss.
-pub(super) const NEARLY_ALL: f64 = 0.99;
 
 /// Turns of the closed forms: each is exact where the other is, and together they approach the best of both.
 const TURNS: usize = 40;
@@ -79,7 +76,7 @@ pub(crate) fn displaced(
     if before.is_nan() || before <= LARGE_GAP * reach {
         return None;
     }
-    let is_nearly_all = |left: &f64| explained([before, *left]) > NEARLY_ALL;
+    let is_nearly_all = |left: &f64| explained([before, *left]) > ALL_BY_FRAMES;
     let nearly: Vec<_> = [vec![base], vec![tool], vec![base, tool]]
         .into_iter()
         .filter(|free| free.iter().all(|frame| !along.contains(frame)))

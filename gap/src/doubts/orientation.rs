@@ -3,18 +3,13 @@
 use nalgebra::UnitQuaternion;
 use stiffarm_kernels::generic::Arm;
 
-use super::frames::NEARLY_ALL;
 use super::{simulated, spread};
-use crate::constants::FEWEST_POSES;
+use crate::constants::{ALL_BY_FRAMES, FEWEST_POSES, LARGE_ANGLE};
 use crate::gap::rms;
 use crate::io::Convention;
 use crate::io::shown;
 use crate::measurement::{Kind, Measurements, Row};
 use crate::simulate::Reading;
-
-/// rad. The tool's turn from one pose to the next does not depend on where base and tool stand; zeros that
-/// are off by some mrad and springs change it by as much, and what is read in a wrong convention by a radian.
-const LARGE_TURN: f64 = 0.1;
 
 /// Of sums of angles, rad.
 const ROUNDING: f64 = 1e-9;
@@ -46,14 +41,14 @@ pub(super) fn orientations(arm: &Arm, data: &Measurements) -> Option<String> {
         rms(&all)
     };
     let as_it_is = off(Convention::RotationVector);
-    if as_it_is <= LARGE_TURN {
+    if as_it_is <= LARGE_ANGLE {
         return None;
     }
     let tried: Vec<(f64, Convention)> = Convention::turns().map(|c| (off(c), c)).collect();
     let least = tried.iter().map(|(off, _)| *off).fold(f64::INFINITY, f64::min);
     // Turns about the tool's axes are those about the base's in the other order, up to rounding.
     let (_, best) = tried.into_iter().find(|(off, _)| *off <= least + ROUNDING)?;
-    let says = if 1.0 - (least / as_it_is).powi(2) > NEARLY_ALL {
+    let says = if 1.0 - (least / as_it_is).powi(2) > ALL_BY_FRAMES {
         let formula = best.formula(&best.ordered(["rx", "ry", "rz"]));
         format!(
             "read as {formula} by {} rad: are rx, ry, rz three turns? write `# orientation = {best}` \

@@ -20,7 +20,7 @@ use super::search::springs::Springs;
 use super::search::unseen::Unseen;
 use super::search::{self, Round, Search, effective};
 use super::told::{Before, Told};
-use crate::constants::{FEWEST_BLOCKS, UNCHANGED};
+use crate::constants::{FEWEST_TO_JUDGE, UNCHANGED};
 use crate::measurement::Body;
 use crate::report::log::{Evidence, Filter, LogDiagnosis, Unexplained};
 use crate::signal::Signals;
@@ -277,7 +277,7 @@ fn prepared(
     options.checked(log.period())?;
     let mut signals = Signals::of(log, drive, options.band);
     let (found, expected) =
-        (signals.rows() as f64 * signals.step(), 2.0 * FEWEST_BLOCKS as f64 * signals.reach());
+        (signals.rows() as f64 * signals.step(), 2.0 * FEWEST_TO_JUDGE as f64 * signals.reach());
     if found < expected {
         return Err(Refused::TooShort { file: log.files.join(", "), found, expected });
     }

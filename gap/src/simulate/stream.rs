@@ -1,9 +1,7 @@
 //! Readings as a function of time, where the rows are a stream of them and not poses at rest.
 
+use crate::constants::LONGEST_STEP;
 use crate::measurement::Row;
-
-/// Rows farther apart than this, s, are poses between which nobody knows how the arm moved.
-const LONGEST: f64 = 1.0;
 
 /// Fewer rows have no rate that a cubic could follow.
 const LEAST: usize = 4;
@@ -25,7 +23,7 @@ pub fn is_stream(rows: &[Row]) -> bool {
     let close = rows.windows(2).try_fold([0, 0], |[close, later], pair| {
         let step = step(pair).filter(|step| *step >= 0.0)?;
         let is_later = step > 0.0;
-        Some([close + usize::from(is_later && step <= LONGEST), later + usize::from(is_later)])
+        Some([close + usize::from(is_later && step <= LONGEST_STEP), later + usize::from(is_later)])
     });
     close.is_some_and(|[close, later]| later + 1 >= LEAST && 2 * close >= later)
 }

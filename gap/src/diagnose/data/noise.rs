@@ -5,20 +5,15 @@ use nalgebra::Vector6;
 use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
 
 use super::problem::Problem;
+use crate::constants::{EXCESS, FEWEST_OF_A_KIND};
 use crate::diagnose::options::Options;
 use crate::diagnose::report::NoiseReport;
 use crate::gap::rms;
 use crate::infer::constants::BEYOND_NOISE;
 use crate::measurement::{Kind, Row};
 
-/// Fewer repeats than this (rows beyond the first of each pose and load) say nothing of the noise.
-const LEAST_REPEATS: usize = 3;
-
 /// A noise below this is none, m or rad.
 const LEAST: f64 = 1e-30;
-
-/// A standard deviation is not known better than this: what remains must exceed it by the factor.
-const EXCESS: f64 = 1.05;
 
 /// Where a noise level comes from.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -291,14 +286,17 @@ impl Repeats {
         let numbers = |apart: &Apart| apart.beyond as f64 * per_row;
         let (inside, outside) = (numbers(&within), numbers(&between));
         let sum = within.squares + between.squares;
-        if within.beyond + between.beyond < LEAST_REPEATS || inside + outside <= 0.0 || sum <= 0.0 {
+        if within.beyond + between.beyond < FEWEST_OF_A_KIND
+            || inside + outside <= 0.0
+            || sum <= 0.0
+        {
             return None;
         }
-        let returns = between.beyond >= LEAST_REPEATS;
+        let returns = between.beyond >= FEWEST_OF_A_KIND;
         let pooled = Self {
             sd: (sum / (inside + outside)).sqrt(),
             freedom: inside + outside,
-            visit: (returns && within.beyond >= LEAST_REPEATS).then_some(0.0),
+            visit: (returns && within.beyond >= FEWEST_OF_A_KIND).then_some(0.0),
             returns,
         };
         if pooled.visit.is_none() {

@@ -8,18 +8,10 @@ use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use super::noise::{Level, Noise, Source};
 use super::problem::Problem;
+use crate::constants::FAR_LOAD;
+use crate::infer::constants::BEYOND_NOISE;
 use crate::infer::{ascending, percentile};
 use crate::measurement::{Measurements, ONE_IN, Row};
-
-/// Of a campaign of normal errors so much is left out: less than one row in a hundred of them.
-const LEVEL: f64 = 0.01;
-
-/// More than this part of the rows is no mishap: something that acts on few rows is not understood.
-const MOST: f64 = 0.1;
-
-/// Loads of a campaign are of one order: what is pulled with at a few rows by this factor more than at nine
-/// in ten of the others decides alone on every law by which the arm gives.
-const FAR: f64 = 5.0;
 
 /// The rows whose loads are no more than those of the others, but for a factor: all where more than one in
 /// ten are.
@@ -32,7 +24,7 @@ pub(crate) fn ordinary(data: &Measurements) -> Vec<bool> {
         let Some(usual) = (9 * loads.len()).div_ceil(10).checked_sub(1).map(|k| loads[k]) else {
             continue;
         };
-        let far = |row: &Row| size(row) > FAR * usual;
+        let far = |row: &Row| size(row) > FAR_LOAD * usual;
         if ONE_IN * data.rows.iter().filter(|row| far(row)).count() <= loads.len() {
             ordinary.iter_mut().zip(&data.rows).for_each(|(is, row)| *is &= !far(row));
         }
@@ -51,7 +43,8 @@ pub(crate) fn fitting(problem: &Problem<'_>, noise: &Noise, gaps: &[Vector6<f64>
         fits.iter_mut().zip(&sizes).for_each(|(fits, size)| *fits &= *size <= limit);
     }
     let out = fits.iter().filter(|fits| !**fits).count();
-    if out as f64 > MOST * gaps.len() as f64 { vec![true; gaps.len()] } else { fits }
+    // More is no mishap: something that acts on few rows is not understood.
+    if ONE_IN * out > gaps.len() { vec![true; gaps.len()] } else { fits }
 }
 
 /// The largest squared norm of one kind that fits among those of all rows.
@@ -60,5 +53,5 @@ fn limit(level: &Level, sizes: &[f64], rows: usize) -> f64 {
     let middle = percentile(&ascending(sizes.iter().copied()), 0.5) / chi.inverse_cdf(0.5);
     // Repeats that do not fit would count as noise.
     let given = if level.source == Source::Option { level.sd.powi(2) } else { 0.0 };
-    middle.max(given) * chi.inverse_cdf(1.0 - LEVEL / rows as f64)
+    middle.max(given) * chi.inverse_cdf(1.0 - BEYOND_NOISE / rows as f64)
 }

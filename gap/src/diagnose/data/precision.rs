@@ -5,18 +5,12 @@ use std::collections::HashMap;
 
 use nalgebra::Vector6;
 
+use crate::constants::{MOST_PRECISE, OWN_PRECISION};
 use crate::gap::rms;
 use crate::measurement::{Kind, Measurements, Row};
 
 /// Halvings of an interval of variances: each is a binary digit.
 const HALVINGS: usize = 60;
-
-/// Numbers of an instrument by which its precision is told: a standard deviation is then known to a sixth.
-const ENOUGH: f64 = 20.0;
-
-/// An instrument that is a hundred times as precise as the others decides alone; one that seems more precise fits
-/// by chance.
-const MOST_APART: f64 = 100.0;
 
 /// What each measured number is to be multiplied by to be as uncertain as all others, of both kinds by
 /// itself; nothing where the file has no standard deviations.
@@ -81,8 +75,8 @@ impl Precision {
             return self;
         }
         let scale = |row: &Row| match instruments.get(&of(row)) {
-            Some(own) if own[1] >= ENOUGH && mean(*own) > 0.0 => {
-                (mean(pooled) / mean(*own)).clamp(1.0 / MOST_APART, MOST_APART)
+            Some(own) if own[1] >= OWN_PRECISION && mean(*own) > 0.0 => {
+                (mean(pooled) / mean(*own)).clamp(1.0 / MOST_PRECISE, MOST_PRECISE)
             }
             _ => 1.0,
         };

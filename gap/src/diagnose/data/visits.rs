@@ -3,10 +3,8 @@
 use std::collections::HashMap;
 
 use super::outliers::ordinary;
+use crate::constants::UNCHANGED;
 use crate::measurement::{Measurements, Near, Row};
-
-/// Loads that differ by less than this part of the largest are the same.
-const SAME_LOAD: f64 = 5e-3;
 
 /// What of the rows belongs together.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -27,7 +25,7 @@ impl Visits {
             let rows = data.rows.iter().zip(&ordinary).filter(|(_, is)| **is);
             rows.map(|(row, _)| part(row, from).norm()).fold(f64::MIN_POSITIVE, f64::max)
         });
-        let mut loads = Near::new(SAME_LOAD);
+        let mut loads = Near::new(UNCHANGED);
         let (mut sets, mut of_row, mut repeats) = (HashMap::new(), Vec::new(), Vec::new());
         let mut last = None;
         for row in &data.rows {

@@ -1,19 +1,13 @@
 //! Freedoms of the geometry: numbers of the table of which the data see only sums. Parallel axes
 //! share their `d`, the first offset is a turn of the base, the last lengths are the tool's.
 
+use crate::constants::{ONE_WITH_OTHERS, SEEN};
 use crate::diagnose::normal_equations::Candidate;
 use crate::diagnose::options::Nuisance;
 use crate::diagnose::report::Gauge;
 use crate::diagnose::search::{First, Search};
 use crate::effects::{Place, Spot};
 use crate::infer::Dependent;
-
-/// A number whose column has less than this part left beside those before it is one with them: the
-/// square of a ratio of sizes of 3e-3. What is left is how the loads follow the arm.
-const SAME: f64 = 1e-5;
-
-/// A part of a column smaller than this is not named.
-const NAMED: f64 = 0.05;
 
 impl Search<'_, '_> {
     /// The geometry's numbers that are one with others before them, each with those. Between two
@@ -25,11 +19,13 @@ impl Search<'_, '_> {
         let names = self.names(&first.geometry);
         let normal = &first.gathered.total.zz;
         let seen = (0..normal.nrows()).filter(|k| normal[(*k, *k)] > 0.0);
-        let told = Dependent::of(normal, seen, SAME).others.into_iter().map(|(number, parts)| {
-            let with = parts.iter().filter(|(_, part)| part.abs() > NAMED);
-            let same_as = with.map(|(k, _)| names[*k].clone()).collect();
-            Gauge { parameter: names[number].clone(), same_as }
-        });
+        let told = Dependent::of(normal, seen, ONE_WITH_OTHERS).others.into_iter().map(
+            |(number, parts)| {
+                let with = parts.iter().filter(|(_, part)| part.abs() > SEEN);
+                let same_as = with.map(|(k, _)| names[*k].clone()).collect();
+                Gauge { parameter: names[number].clone(), same_as }
+            },
+        );
         told.collect()
     }
 

@@ -1,19 +1,12 @@
 //! What this data could show, before anything is fitted: what is left of each effect when the
 //! nuisances, and all of the arm's geometry, have taken up what they can.
 
+use crate::constants::{IDLE, SEEN};
 use crate::diagnose::normal_equations::{Kept, Screen};
 use crate::diagnose::search::{Explained, First, Search};
 use crate::effects::{Effect, Place};
 use crate::infer::constants::{NUMBERS_EACH, OWN};
 use crate::report::{CannotSee, Hidden};
-
-/// An effect that moves what is measured by less than this part of what it does at its strongest
-/// place is idle there.
-const IDLE: f64 = 1e-3;
-
-/// Less than this left beside geometry is called unseen: an effect would have to be some 20 times
-/// the noise to be told from it.
-const SEEN: f64 = 0.05;
 
 impl Search<'_, '_> {
     /// The effects, at their places, that this data could not have shown.

@@ -1,6 +1,7 @@
 //! Which effects: added one by one, each judged beside all that is already there, and each taken
 //! back or exchanged when what came later makes it superfluous or another better.
 
+use crate::constants::PROMISE_KEPT;
 use crate::diagnose::data::{Folds, Noise, Problem};
 use crate::diagnose::fit::{
     Fit, Fitted, Model, Predicted, prior_penalty, refit, refit_below, squares,
@@ -23,9 +24,6 @@ const SMALL: usize = 4;
 /// Orders of periodic errors that are added with the best one: they hardly touch each other, and a
 /// real gear has many.
 const MOST_ORDERS: usize = 5;
-
-/// The part of the fall that the linear fit promises which the exact one has to keep.
-const KEPT: f64 = 0.5;
 
 /// Candidates that are tried in turn when the exact fit does not follow the linear one.
 const MOST_TRIED: usize = 3;
@@ -174,7 +172,7 @@ impl Search<'_, '_> {
                     }
                 }
             }
-            let below = self.left(now) - KEPT * one.score.drop;
+            let below = self.left(now) - PROMISE_KEPT * one.score.drop;
             let Some(fit) = self.with(now, &[], added, below)? else {
                 tries += 1;
                 continue;

@@ -3,13 +3,11 @@
 use nalgebra::Isometry3;
 
 use super::forward::{Explained, Search};
+use crate::constants::LARGE_ANGLE;
 use crate::diagnose::fit::{Axes, Model, prior_penalty, refit_below, squares};
 use crate::diagnose::options::DiagnoseError;
 use crate::infer::constants::DISTINGUISHABLE;
 use crate::infer::{Observations, costs};
-
-/// A base leans by no more, rad: what leans further stands in no frame that was levelled, or is meant to.
-const MOST_LEAN: f64 = 0.1;
 
 impl Search<'_, '_> {
     /// The same with loads and gravity in the measuring frame's axes, if the data are rather those of it than of the
@@ -24,7 +22,7 @@ impl Search<'_, '_> {
             own.angle(&Axes::Measuring.gravity(base, own))
         };
         let turned = model.bases.iter().any(|base| base.rotation.angle() > 0.0);
-        let leans = turned && model.bases.iter().all(|base| lean(base) <= MOST_LEAN);
+        let leans = turned && model.bases.iter().all(|base| lean(base) <= LARGE_ANGLE);
         if model.axes == Axes::Measuring || !leans || problem.nominal.is_some() || self.stopped() {
             return Ok(None);
         }

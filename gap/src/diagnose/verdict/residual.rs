@@ -3,6 +3,7 @@
 use nalgebra::Vector6;
 use statrs::distribution::{ContinuousCDF, Normal};
 
+use crate::constants::FEWEST_TO_JUDGE;
 use crate::diagnose::data::Problem;
 use crate::diagnose::report::{Autocorrelation, Normality, Residual, Worst};
 use crate::diagnose::search::{Explained, Search};
@@ -12,9 +13,6 @@ const MOST_NAMED: usize = 5;
 
 /// Quantiles that are told: what a plot shows.
 const MOST_QUANTILES: usize = 99;
-
-/// Fewer numbers than this have no shape.
-const LEAST: usize = 8;
 
 impl Search<'_, '_> {
     /// Of the model with all findings; `before` and `after` are held-out gaps.
@@ -69,7 +67,7 @@ fn normality(problem: &Problem<'_>, gaps: &[Vector6<f64>]) -> Option<Normality> 
             values.append(&mut own);
         }
     }
-    if values.len() < LEAST {
+    if values.len() < FEWEST_TO_JUDGE {
         return None;
     }
     let count = values.len() as f64;
@@ -116,7 +114,7 @@ fn autocorrelation(problem: &Problem<'_>, gaps: &[Vector6<f64>]) -> Option<Autoc
         .collect();
     let squares: f64 = means.iter().map(|mean| mean.norm_squared()).sum();
     let pairs = means.len().saturating_sub(1) * problem.measured.len();
-    if pairs < LEAST || squares <= 0.0 {
+    if pairs < FEWEST_TO_JUDGE || squares <= 0.0 {
         return None;
     }
     let products: f64 = means.windows(2).map(|pair| pair[0].dot(&pair[1])).sum();

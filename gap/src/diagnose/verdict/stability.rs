@@ -3,6 +3,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use crate::constants::FEWEST_TO_JUDGE;
 use crate::diagnose::normal_equations::Screen;
 use crate::diagnose::search::{Explained, Search};
 use crate::infer::constants::OWN;
@@ -12,9 +13,6 @@ use crate::rng::{Rng, Stream};
 
 /// Random halves.
 const HALVES: usize = 40;
-
-/// Fewer blocks than this cannot be halved.
-const LEAST_BLOCKS: usize = 8;
 
 /// Candidates far behind on all poses are not the best on half of them.
 const CONTENDERS: usize = 24;
@@ -30,7 +28,7 @@ impl Search<'_, '_> {
         is_it: &(dyn Fn(usize) -> bool + Sync),
     ) -> f64 {
         let blocks = screen.blocks.len();
-        if blocks < LEAST_BLOCKS {
+        if blocks < FEWEST_TO_JUDGE {
             return 1.0;
         }
         let contenders: Vec<usize> = contenders.iter().copied().take(CONTENDERS).collect();

@@ -8,6 +8,7 @@ use stiffarm_kernels::generic::Arm;
 
 use super::choose::{Choice, choose};
 use super::{Answer, Gap, MeasuredError, Noise, Parameter, Question, Status, Uncertainty, Unknown};
+use crate::constants::WEAK;
 use crate::diagnose::data::{Folds, Problem};
 use crate::diagnose::fit::{Fit, Model, normal_equations, placed, refit, squares, step};
 use crate::diagnose::search::{Explained, Search};
@@ -24,9 +25,6 @@ const SETTLED: f64 = 1e-6;
 
 /// The part of all work that the fit to all rows is; the rest is the folds.
 const FITTED: f64 = 0.5;
-
-/// A number with a standard deviation of more than this part of it is weak.
-const WEAK: f64 = 0.5;
 
 /// Finds what the question asks for in a measurement file; `done` is told the part of the work that
 /// is done, from 0 to 1. The user's own simulator, if the file has one, plays no part.

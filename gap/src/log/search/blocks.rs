@@ -6,7 +6,7 @@
 //! two blocks stand as many rows as the filter reaches, which belong to neither.
 
 use super::segments::Segment;
-use crate::constants::{FEWEST_BLOCKS, FEWEST_OF_A_KIND};
+use crate::constants::{FEWEST_OF_A_KIND, FEWEST_TO_JUDGE};
 use crate::infer::constants::FOLDS;
 use crate::signal::Signals;
 
@@ -68,7 +68,7 @@ impl Blocks {
         let rows: usize = segments.iter().map(|segment| segment.rows.len()).sum();
         let segment = rows as f64 / segments.len() as f64 * signals.step();
         let wanted = LENGTH * correlation.max(signals.reach());
-        let most = (segments.len() / FEWEST_BLOCKS).max(1);
+        let most = (segments.len() / FEWEST_TO_JUDGE).max(1);
         let each = ((wanted / segment).ceil() as usize).clamp(1, most);
         let runs = runs(segments);
         let by_run = may && runs.len() >= FEWEST_OF_A_KIND;
@@ -84,7 +84,7 @@ impl Blocks {
         let fold = |(b, block): (usize, &Block)| if by_run { of_run(block.run) } else { b % folds };
         let fold = all.iter().enumerate().map(fold).collect();
         let length = each as f64 * segment;
-        let long_enough = all.len() >= FEWEST_BLOCKS && length >= wanted * (1.0 - 1e-9);
+        let long_enough = all.len() >= FEWEST_TO_JUDGE && length >= wanted * (1.0 - 1e-9);
         Blocks { all, fold, folds, by_run, length, long_enough }
     }
 }
