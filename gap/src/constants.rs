@@ -142,8 +142,9 @@ pub(crate) const SAME_SIGNS: f64 = 0.05;
 /// them: a torque that is late by so little is in proportion to its rate.
 pub(crate) const SHRINKS: f64 = 0.2;
 
-/// Two masses are of two things that differ by more than this part of the range of all: masses of one thing scatter by
-/// less where runs carry different things at all.
+/// Two masses are of two things that differ by more than this part of the range of all. Three things at even steps are
+/// two quarters apart, and masses of one thing are to scatter by less than half of that. It is a judgement: nobody
+/// measured it.
 pub(crate) const THINGS_APART: f64 = 0.25;
 
 // Effects in a log.
@@ -218,8 +219,8 @@ pub(crate) const SEEN: f64 = 0.05;
 
 // Effects of a campaign.
 
-/// The part of the fall that the linear fit promises which the exact one has to keep: an effect that keeps less is
-/// another than the one that was chosen.
+/// The part of the fall that the linear fit promises which the exact one has to keep: of what keeps less the larger
+/// part was there by the linearisation alone.
 pub(crate) const PROMISE_KEPT: f64 = 0.5;
 
 /// A number that is identified with a standard deviation of more than this part of it is weak: zero, a spring that does

@@ -10,18 +10,13 @@ use nalgebra::{DMatrix, DVector, Vector6};
 use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
 
 use super::constants::SIGNIFICANT;
-
-/// A window of so many correlation times holds the correlation (Sokal: 4 to 10).
-const WINDOW: f64 = 5.0;
+use super::limits::{CORRELATION_TIMES, LEAST_OWN};
 
 /// Shares of what lingers that are tried.
 const SHARES: [f64; 10] = [0.07, 0.15, 0.3, 0.5, 0.65, 0.8, 0.9, 0.95, 0.98, 1.0];
 
 /// The next memory that is tried is longer by this factor; the longest is twice the campaign's.
 const LONGER: f64 = std::f64::consts::SQRT_2;
-
-/// Less of a pattern beside the others is nothing of its own.
-const OWN: f64 = 1e-9;
 
 /// By how much the squares fall with a pattern, beside autocorrelated errors.
 #[derive(Clone, Copy, Debug, Default)]
@@ -131,14 +126,14 @@ impl Memory {
         let (mut p, _) = self.independent(series);
         let whole = p.diagonal();
         for k in (1..series.nrows()).filter(|k| *k != ASKED) {
-            if p[(k, k)] > OWN * whole[k] {
+            if p[(k, k)] > LEAST_OWN * whole[k] {
                 let (own, column) = (p[(k, k)], p.column(k).into_owned());
                 p.ger(-1.0 / own, &column, &column, 1.0);
             }
         }
         // What is left has lost the pattern as it was fitted.
         let own = p[(ASKED, ASKED)];
-        (own > OWN * whole[ASKED]).then(|| (p[(0, ASKED)] + own).powi(2) / own)
+        (own > LEAST_OWN * whole[ASKED]).then(|| (p[(0, ASKED)] + own).powi(2) / own)
     }
 
     fn likely(self, all: &[Series]) -> Likely {
@@ -151,7 +146,7 @@ impl Memory {
             // The mean and each pattern take their part.
             for k in 1..series.nrows() {
                 let own = p[(k, k)];
-                if own > OWN * whole[k] {
+                if own > LEAST_OWN * whole[k] {
                     let column = p.column(k).into_owned();
                     p.ger(-1.0 / own, &column, &column, 1.0);
                     unlikely += own.ln();
@@ -196,7 +191,7 @@ pub fn correlation_time(parts: &[Vec<Option<f64>>], step: f64) -> f64 {
     if whole > 0.0 {
         for lag in 1..longest / 2 {
             time += at(lag) / whole;
-            if lag as f64 >= WINDOW * time {
+            if lag as f64 >= CORRELATION_TIMES * time {
                 break;
             }
         }

@@ -3,13 +3,11 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector, SymmetricEigen};
 
+use super::limits::LEAST_OWN;
+
 /// A direction whose part of the (scaled) normal matrix is below this is not decided: the square of
 /// a ratio of singular values of 3e-6, where rounding of the products begins to show.
 pub const RANK: f64 = 1e-11;
-
-/// A column of which less than this part of its square stands apart from those before it says nothing
-/// of its own: three digits above the rounding of products of a million samples.
-const APART: f64 = 1e-9;
 
 /// Where so much is left of every column beside those before it no direction is near [`RANK`], nor near
 /// any other bound that is asked for.
@@ -67,7 +65,7 @@ impl Basis {
                 DVector::from_fn(rank, |j, _| normal[(at, seen[j])] * scale[at] * scale[seen[j]]);
             factor.view((0, 0), (rank, rank)).solve_lower_triangular_mut(&mut row);
             let rest = normal[(at, at)] * scale[at] * scale[at] - row.norm_squared();
-            if rest > APART {
+            if rest > LEAST_OWN {
                 factor.view_mut((rank, 0), (1, rank)).tr_copy_from(&row);
                 factor[(rank, rank)] = rest.sqrt();
                 seen.push(at);

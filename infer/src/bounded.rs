@@ -8,10 +8,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::basis::Basis;
-
-/// A bound is given up if that makes the squares fall by more than this part of what the values
-/// explain; less is rounding.
-const WORTH: f64 = 1e-12;
+use super::limits::LAST_DIGITS;
 
 /// `A`, `b` of the squares `xᵀ A x − 2 bᵀ x`, and when a direction is undecided.
 pub struct Squares<'s> {
@@ -72,7 +69,7 @@ impl Squares<'_> {
             let worth = |at: &usize| slope[*at].max(0.0).powi(2) / self.matrix[(*at, *at)];
             let held = (0..x.len()).filter(|at| !free.contains(at) && worth(at).is_finite());
             let Some(best) = held.max_by(|a, b| worth(a).total_cmp(&worth(b))) else { return };
-            if worth(&best) <= WORTH * self.fall(x).abs() {
+            if worth(&best) <= LAST_DIGITS * self.fall(x).abs() {
                 return;
             }
             let before = (x.clone(), self.fall(x));

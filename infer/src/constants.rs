@@ -21,10 +21,6 @@ pub const NUMBERS_EACH: usize = 3;
 /// that comes from uncertain parameters is a ninth too large.
 pub const FOLDS: usize = 10;
 
-/// Kept in a normal matrix scaled to 1 where the rows that are left do not decide a direction: far above the rounding
-/// of its products, and one that they decide to a millionth is off by a thousandth.
-pub const RIDGE: f64 = 1e-9;
-
 /// Largest standard deviation of a number's prior, in units of what is usual of it: what is usual is known to a factor
 /// of about three. It holds what the data hardly decide, and the price of values beyond it is Gaussian.
 pub const LOOSE: f64 = 3.0;

@@ -18,6 +18,7 @@ mod bounded;
 pub mod constants;
 mod dependent;
 mod evidence;
+pub mod limits;
 mod order;
 pub mod parallel;
 mod products;

@@ -5,12 +5,9 @@ use nalgebra::{DMatrix, DVector};
 use super::basis::principal;
 use super::constants::{NUMBERS_EACH, OWN};
 use super::evidence::Scale;
+use super::limits::ROUNDS;
 use super::score::Score;
 use super::screen::{Columns, Screen};
-
-/// Rounds in which a variance and what is left at it settle: each is nearer by the part of the
-/// numbers that are hardly decided.
-const ROUNDS: usize = 6;
 
 /// A candidate beside a model; more `gain` is better.
 pub struct Ranked {

@@ -6,7 +6,8 @@ use nalgebra::{Cholesky, DMatrix, DVector};
 
 use super::basis::{Basis, principal};
 use super::bounded::Squares;
-use super::constants::{LOOSE, RIDGE};
+use super::constants::LOOSE;
+use super::limits::RIDGE;
 use super::products::Products;
 use super::screen::{Columns, Screen};
 

@@ -6,6 +6,7 @@ use std::collections::BTreeSet;
 
 use nalgebra::DMatrix;
 
+use super::limits::{CHUNK, ROUNDING};
 use super::score::Score;
 use super::screen::{Columns, Screen};
 use crate::parallel;
@@ -13,12 +14,6 @@ use crate::rng::{Rng, Stream};
 
 /// Random sign patterns: the least p value is one in so many.
 pub(crate) const FLIPS: usize = 999;
-
-/// Candidates whose sums over the blocks are taken together: a product of many columns is blocked.
-const TOGETHER: usize = 64;
-
-/// Rounding may put a pattern that equals the observed one so far below it, relative to its size.
-const ROUNDING: f64 = 1e-9;
 
 /// Sign patterns of blocks.
 pub struct Signs {
@@ -65,7 +60,7 @@ impl Signs {
             };
             sums.as_slice().chunks_exact(sums.nrows().max(1)).map(largest).collect()
         };
-        let some: Vec<&[&DMatrix<f64>]> = shares.chunks(TOGETHER).collect();
+        let some: Vec<&[&DMatrix<f64>]> = shares.chunks(CHUNK).collect();
         let all = parallel::each(&some, &of_some);
         let of_pattern = |k: usize| all.iter().map(move |f| f.get(k).copied().unwrap_or(0.0));
         (0..self.patterns.ncols()).map(|k| of_pattern(k).fold(0.0, f64::max)).collect()

@@ -6,13 +6,11 @@ use stiffarm_kernels::generic::Arm;
 use super::{simulated, spread};
 use crate::constants::{ALL_BY_FRAMES, FEWEST_POSES, LARGE_ANGLE};
 use crate::gap::rms;
+use crate::infer::limits::ROUNDING;
 use crate::io::Convention;
 use crate::io::shown;
 use crate::measurement::{Kind, Measurements, Row};
 use crate::simulate::Reading;
-
-/// Of sums of angles, rad.
-const ROUNDING: f64 = 1e-9;
 
 /// A doubt where the tool turns otherwise from pose to pose than the arm does, and whether it does not if
 /// the numbers are three turns.

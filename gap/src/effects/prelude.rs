@@ -17,6 +17,7 @@ pub(super) use super::{
     Moves, Over, Parameter, ParameterReport, Place, Quantity, RobotFile, Scene, Spot, Told,
     significant,
 };
+pub(super) use crate::infer::limits::{ROUNDING, SLOPE_STEP, SMALL_MOVE};
 pub(super) use crate::log::TorqueSide;
 pub(super) use crate::log::pace::{ORDERS, PASSES, Pace, round};
 pub(super) use crate::log::rigid::moved;

@@ -9,11 +9,10 @@ use core::fmt;
 use nalgebra::{Matrix6, Vector3, Vector6};
 use stiffarm_kernels::generic::Arm;
 
+use crate::infer::limits::ROUNDING;
+
 /// A lever shorter than this, m, is no way to load a joint by a force.
 const SHORT: f64 = 0.02;
-
-/// A motion below this part of the largest is rounding.
-const ROUNDING: f64 = 1e-9;
 
 /// A load that shows a joint better than any other of its kind in the postures of the tests.
 #[derive(Clone, Debug, PartialEq)]

@@ -11,7 +11,7 @@ use super::read::{Log, Signal, TorqueSide};
 use super::readings::{Readings, placeholder};
 use super::rigid::{Base, body, moved, report};
 use super::scene::Domain;
-use super::search::case::{Case, FOUND, Simple, Wanted};
+use super::search::case::{Case, Simple, Wanted};
 use super::search::dictionary::{Dictionary, Mixed};
 use super::search::fit::{Fitted, Links, Term};
 use super::search::nested::nested;
@@ -21,6 +21,7 @@ use super::search::unseen::Unseen;
 use super::search::{self, Round, Search, effective};
 use super::told::{Before, Told};
 use crate::constants::{FEWEST_TO_JUDGE, UNCHANGED};
+use crate::infer::limits::CONVERGED;
 use crate::measurement::Body;
 use crate::report::log::{Evidence, Filter, LogDiagnosis, Unexplained};
 use crate::signal::Signals;
@@ -334,7 +335,7 @@ fn sizes(dict: &Dictionary<'_>) -> Vec<f64> {
 fn moved_on(dict: &Dictionary<'_>, terms: &[Term]) -> bool {
     let moved = |term: &Term| {
         let pairs = dict.entry(term).at.iter().zip(&term.values);
-        pairs.into_iter().any(|(at, is)| (is - at).abs() > FOUND * is.abs())
+        pairs.into_iter().any(|(at, is)| (is - at).abs() > CONVERGED * is.abs())
     };
     terms.iter().any(|term| term.effect.bends() && moved(term))
 }

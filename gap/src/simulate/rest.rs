@@ -16,9 +16,7 @@ use super::site::Site;
 use super::state::State;
 use super::tangent::Tangent;
 use super::walk::{Frames, Walk};
-
-/// Rounds with Newton's steps.
-const MOST_ROUNDS: usize = 40;
+use crate::infer::limits::NEWTON_STEPS;
 
 /// As long as each plain step is shorter than the one before by this, none of Newton's is worth its
 /// cost.
@@ -138,7 +136,7 @@ impl Posture {
         let mut last = f64::INFINITY;
         let (mut from, mut step) = (self.at.clone(), Vec::new());
         let (mut by_newton, mut halvings) = (false, 0);
-        while self.rounds < MOST_ROUNDS {
+        while self.rounds < NEWTON_STEPS {
             self.look(walk);
             if self.is_lost() || (self.change > last && self.change > ROUNDING) {
                 if step.is_empty() {

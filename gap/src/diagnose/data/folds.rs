@@ -2,15 +2,12 @@
 
 use crate::diagnose::options::{DiagnoseError, Options};
 use crate::infer::constants::FOLDS;
+use crate::infer::limits::BLOCKS;
 use crate::measurement::Measurements;
 use crate::rng::{Rng, Stream};
 
 /// Up to this many poses each is held out alone.
 const MOST_SINGLE: usize = 30;
-
-/// Blocks of poses: beyond this, poses that were measured one after another share a block, so that
-/// cost and memory stay linear.
-const MOST_BLOCKS: usize = 64;
 
 /// Stretches of time that are held out by themselves.
 const FIFTHS: usize = 5;
@@ -38,7 +35,7 @@ impl Folds {
             let file = data.file.clone();
             return Err(DiagnoseError::Folds { file, found: count, poses });
         }
-        let block_of_pose = blocks_of(data, MOST_BLOCKS.max(count));
+        let block_of_pose = blocks_of(data, BLOCKS.max(count));
         let blocks = block_of_pose.last().map_or(0, |last| last + 1);
         let mut of_block = vec![0; blocks];
         let order = Rng::new(options.seed, Stream::Folds).order(blocks);
@@ -123,8 +120,8 @@ mod tests {
     #[test]
     fn very_many_poses_share_blocks() {
         let folds = Folds::deal(&data(1000), &Options::default()).unwrap();
-        assert_eq!(folds.blocks(), MOST_BLOCKS);
-        assert_eq!((folds.block_of_row[0], folds.block_of_row[999]), (0, MOST_BLOCKS - 1));
+        assert_eq!(folds.blocks(), BLOCKS);
+        assert_eq!((folds.block_of_row[0], folds.block_of_row[999]), (0, BLOCKS - 1));
         assert!(sizes(&folds, 1000).iter().all(|n| (90..=115).contains(n)));
     }
 
@@ -135,7 +132,7 @@ mod tests {
             row.session = Some("a".to_owned());
         }
         let folds = Folds::deal(&data, &Options::default()).unwrap();
-        assert_eq!(folds.blocks(), MOST_BLOCKS + 1);
+        assert_eq!(folds.blocks(), BLOCKS + 1);
         assert_eq!(folds.block_of_row[333], folds.block_of_row[332] + 1);
     }
 

@@ -12,6 +12,7 @@ use crate::diagnose::prior::Prior;
 use crate::diagnose::progress::Stop;
 use crate::effects::{Effect, Known};
 use crate::gap::{Statistics, rms};
+use crate::infer::limits::LAST_DIGITS;
 use crate::instrument::{Aim, Pair, Seen};
 use crate::measurement::{Kind, Measurements, Row, Stands, number_of};
 use crate::parallel;
@@ -21,9 +22,6 @@ use crate::spring::Spring;
 /// Readings, loads, places and gaps stay below this, N, N·m, m and rad: their squares, weighted and
 /// added up, are then finite.
 pub const LARGEST: f64 = 1e50;
-
-/// A gap below this, relative to the arm's reach, is rounding error.
-const ROUNDING: f64 = 1e-12;
 
 /// Rows that are worked on at once: what is found of each is more than what is kept of it.
 const AT_ONCE: usize = 1 << 14;
@@ -219,7 +217,7 @@ impl<'a> Problem<'a> {
 
     /// Below this a gap is rounding error, m or rad.
     pub(crate) fn rounding(&self) -> f64 {
-        ROUNDING * (1.0 + self.reach)
+        LAST_DIGITS * (1.0 + self.reach)
     }
 
     /// Whether gaps are more than rounding.

@@ -8,6 +8,7 @@ use super::refit::refit;
 use crate::diagnose::data::{Problem, Thing};
 use crate::diagnose::options::{DiagnoseError, Nuisance};
 use crate::infer::Basis;
+use crate::infer::limits::LAST_DIGITS;
 use crate::instrument::{View, nearest_rotation, pose};
 use crate::measurement::{Kind, Row};
 use crate::parallel;
@@ -15,9 +16,6 @@ use crate::simulate::Reading;
 
 /// Most steps of a thing's least squares, which are nearly linear from where they begin.
 const MOST_STEPS: usize = 20;
-
-/// A step below this, m and rad, is the last.
-const SETTLED: f64 = 1e-12;
 
 /// The nominal model with unknown frames where the measurements put them to a first guess.
 ///
@@ -188,7 +186,7 @@ pub(crate) fn fitted_thing(
         }
         let step = Basis::new(&normal).solve(&right);
         view = aim.moved(view, step.as_slice());
-        if step.amax() < SETTLED {
+        if step.amax() < LAST_DIGITS {
             break;
         }
     }

@@ -11,13 +11,10 @@ use super::bond::Bond;
 use super::model::{Model, Predicted};
 use crate::diagnose::data::Problem;
 use crate::diagnose::options::DiagnoseError;
+use crate::infer::limits::{CHUNK, NEWTON_STEPS};
 use crate::infer::{RANK, Squares};
 use crate::parallel;
 use crate::simulate::Sim;
-
-/// Most steps: the blocks leave out terms of second order, so that the error falls by a factor of
-/// ten or more with each.
-const MOST_STEPS: usize = 40;
 
 /// Halvings of a step that does not help.
 const MOST_HALVINGS: usize = 8;
@@ -33,9 +30,6 @@ const HOPE: f64 = 10.0;
 /// A step that promises less than this part of the squares, and less than this number of units of
 /// noise, is the last.
 const LAST: f64 = 1e-9;
-
-/// Rows whose products are taken together.
-const CHUNK: usize = 64;
 
 /// Chunks that are worked on at once: enough that no thread waits long for another.
 const AT_ONCE: usize = 256;
@@ -83,7 +77,7 @@ pub(crate) fn refit_below(
     // Frames alone are fitted to rounding: theirs is hand-eye calibration.
     let last = if fit.model.found.is_empty() { LAST * LAST } else { LAST };
     let mut predicted = 0;
-    for _ in 0..MOST_STEPS {
+    for _ in 0..NEWTON_STEPS {
         // Frames are fitted to the end; effects are not told before.
         if predicted >= MOST_PREDICTED || (problem.stop.is_asked() && !fit.model.found.is_empty()) {
             break;

@@ -13,12 +13,9 @@ use super::layout::Layout;
 use super::stack::{Seen, Stack, Sum};
 use crate::diagnose::data::{Folds, Problem};
 use crate::diagnose::fit::Fit;
+use crate::infer::limits::CHUNK;
 use crate::infer::{Choice, Products};
 use crate::parallel;
-
-/// Rows whose columns stand beside each other before their products are taken: few enough for a
-/// cache.
-const CHUNK: usize = 64;
 
 /// Blocks of poses that are worked on at once, for each thread.
 const AT_ONCE: usize = 2;

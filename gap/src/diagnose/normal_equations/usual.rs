@@ -7,15 +7,13 @@ use super::candidate::Candidate;
 use crate::diagnose::data::Problem;
 use crate::diagnose::fit::Model;
 use crate::diagnose::options::DiagnoseError;
+use crate::infer::limits::SOME_ROWS;
 use crate::parallel;
 use crate::simulate::Sim;
 
 /// An arm's tool hardly moves by more than this part of its reach because something gives (by so many
 /// radians, where no position is measured).
 const PART: f64 = 5e-3;
-
-/// Rows by which it is told.
-const MOST_ROWS: usize = 200;
 
 /// Takes as usual of every number that has no size of its own what moves the reading so far,
 /// root mean square over the rows.
@@ -29,7 +27,7 @@ pub(crate) fn scale_elastic(
     let predicted = model.predict(problem, None)?;
     // A load that is mistyped says nothing of how far arms give.
     let kept: Vec<usize> = (0..problem.data.rows.len()).filter(|row| problem.fits[*row]).collect();
-    let rows = kept.iter().step_by(kept.len().div_ceil(MOST_ROWS).max(1));
+    let rows = kept.iter().step_by(kept.len().div_ceil(SOME_ROWS).max(1));
     let rows: Vec<(usize, Cow<'_, Sim>)> = rows
         .map(|row| Ok((*row, model.state(problem, &predicted, *row)?)))
         .collect::<Result<_, _>>()?;

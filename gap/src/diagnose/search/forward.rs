@@ -11,6 +11,7 @@ use crate::diagnose::options::{DiagnoseError, Options};
 use crate::diagnose::progress::Stage;
 use crate::effects::{Effect, Forms, Spot};
 use crate::infer::constants::SIGNIFICANT;
+use crate::infer::limits::{CONVERGED, ROUNDS};
 use crate::infer::{Asked, Observations, Ranked, pruned};
 use nalgebra::Vector6;
 use std::sync::{Arc, OnceLock};
@@ -27,12 +28,6 @@ const MOST_ORDERS: usize = 5;
 
 /// Candidates that are tried in turn when the exact fit does not follow the linear one.
 const MOST_TRIED: usize = 3;
-
-/// Rounds in which weights and fit settle.
-const MOST_WEIGHED: usize = 6;
-
-/// Weights that change by less than this part have converged: far less than any noise is known.
-const SETTLED: f64 = 1e-3;
 
 /// Everything that a search works with.
 #[derive(Clone, Copy)]
@@ -80,8 +75,8 @@ impl Search<'_, '_> {
         mut before: Vector6<f64>,
     ) -> Result<Explained, DiagnoseError> {
         let mut now = self.weigh(fit);
-        for _ in 0..MOST_WEIGHED {
-            let moved = |(now, before): (&f64, &f64)| (now - before).abs() > SETTLED * before;
+        for _ in 0..ROUNDS {
+            let moved = |(now, before): (&f64, &f64)| (now - before).abs() > CONVERGED * before;
             if !now.weights.iter().zip(before.iter()).any(moved) {
                 break;
             }

@@ -7,10 +7,8 @@ use super::forward::{Explained, Search};
 use crate::diagnose::fit::{Model, refit};
 use crate::diagnose::normal_equations::Candidate;
 use crate::diagnose::options::DiagnoseError;
+use crate::infer::limits::ROUNDS;
 use crate::infer::{Basis, Observations, likely_scale};
-
-/// Rounds in which the tolerance and the numbers that are held to it settle.
-const MOST_ROUNDS: usize = 6;
 
 /// A factor of a tolerance that is nearer to 1 changes no value by more than a tenth of its deviation.
 const SAME: f64 = 1.05;
@@ -19,7 +17,7 @@ impl Search<'_, '_> {
     /// The model with what was found within makers' tolerances held to the most likely multiple of these, no less
     /// than 1, and fitted again.
     pub(super) fn as_tolerated(&self, mut now: Explained) -> Result<Explained, DiagnoseError> {
-        for _ in 0..MOST_ROUNDS {
+        for _ in 0..ROUNDS {
             let Some((index, factor)) = self.looser(&now) else { break };
             let Explained { fit, weights, .. } = now;
             let mut model = fit.model;

@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, DVector, Vector6};
 use crate::diagnose::data::Problem;
 use crate::diagnose::fit::{Fit, Model, block, squares};
 use crate::diagnose::search::{Explained, Search};
-use crate::infer::constants::RIDGE;
+use crate::infer::limits::RIDGE;
 use crate::infer::{Basis, Observations, students_t};
 use crate::parallel;
 

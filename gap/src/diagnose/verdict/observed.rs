@@ -4,10 +4,8 @@ use super::certainty::Certainty;
 use crate::diagnose::fit::{Fit, Model};
 use crate::diagnose::report::{Correlation, CorrelationMatrix, Observability};
 use crate::diagnose::search::Search;
+use crate::infer::limits::MOST_NAMED;
 use crate::infer::{RANK, principal};
-
-/// Pairs that are named.
-const MOST: usize = 5;
 
 /// Numbers whose correlations are told one by one.
 const MOST_NUMBERS: usize = 12;
@@ -67,7 +65,7 @@ impl Search<'_, '_> {
             }
         }
         pairs.sort_by(|a, b| b.0.abs().total_cmp(&a.0.abs()));
-        let named = pairs.into_iter().take(MOST).map(|(correlation, a, b)| Correlation {
+        let named = pairs.into_iter().take(MOST_NAMED).map(|(correlation, a, b)| Correlation {
             of: names[b].clone(),
             with: names[a].clone(),
             correlation,

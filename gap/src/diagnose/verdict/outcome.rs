@@ -6,14 +6,12 @@ use crate::diagnose::data::{Folds, Problem};
 use crate::diagnose::fit::{Bond, Fit, Model, block};
 use crate::diagnose::search::{Explained, Search};
 use crate::effects::At;
+use crate::infer::limits::CHUNK;
 use crate::infer::{Basis, Products, RANK, ordered};
 use crate::parallel;
 
 /// The effects of one finding, ascending: all forms of one effect at one place are one.
 pub(crate) type Group = Vec<usize>;
-
-/// Rows that are worked on by one thread.
-const CHUNK: usize = 64;
 
 /// Findings in the order in which they shrink the held-out gap most, and what is left of it before the
 /// first and after each.

@@ -7,9 +7,7 @@ use crate::constants::FEWEST_TO_JUDGE;
 use crate::diagnose::data::Problem;
 use crate::diagnose::report::{Autocorrelation, Normality, Residual, Worst};
 use crate::diagnose::search::{Explained, Search};
-
-/// Rows that are named.
-const MOST_NAMED: usize = 5;
+use crate::infer::limits::MOST_NAMED;
 
 /// Quantiles that are told: what a plot shows.
 const MOST_QUANTILES: usize = 99;

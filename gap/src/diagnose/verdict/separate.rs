@@ -6,15 +6,13 @@ use nalgebra::{DVector, Matrix6xX, Vector6};
 use super::outcome::Group;
 use crate::diagnose::normal_equations::Candidate;
 use crate::diagnose::search::{Explained, Search};
+use crate::infer::limits::SOME_ROWS;
 use crate::instrument::View;
 use crate::measurement::Row;
 use crate::simulate::Sim;
 
 /// A load to try where the data has none, N.
 const USUAL: f64 = 100.0;
-
-/// Poses of the pool.
-const MOST_POSES: usize = 200;
 
 /// Part of the reach beyond which a prediction is no prediction.
 const FAR: f64 = 0.03;
@@ -31,7 +29,7 @@ impl Search<'_, '_> {
         (rival, values): &(Candidate, Vec<f64>),
     ) -> String {
         let rows = &self.problem.data.rows;
-        let every = rows.len().div_ceil(MOST_POSES).max(1);
+        let every = rows.len().div_ceil(SOME_ROWS).max(1);
         let strongest = rows.iter().map(|r| r.wrench.fixed_rows::<3>(0).norm()).fold(0.0, f64::max);
         let force = if strongest > 0.0 { strongest * MORE } else { USUAL };
         let rival_values = DVector::from_column_slice(values);

@@ -3,10 +3,8 @@
 use nalgebra::DMatrix;
 
 use super::Unknown;
+use crate::infer::limits::ROUNDING;
 use crate::infer::{Dependent, RANK};
-
-/// A column below this part of the largest of its kind is rounding.
-const EMPTY: f64 = 1e-9;
 
 /// A part of a combination below this does not belong to it.
 const BELONGS: f64 = 1e-3;
@@ -35,7 +33,7 @@ pub(super) fn choose(normal: &DMatrix<f64>, unknowns: &[Unknown]) -> Choice {
     let mut order: Vec<usize> = (0..unknowns.len()).collect();
     order.sort_by(|&a, &b| rank(a).cmp(&rank(b)).then(norms[b].total_cmp(&norms[a])));
     // One that leaves no trace is no part of others.
-    let is_empty = |k: &usize| norms[*k] <= EMPTY * largest(rank(*k));
+    let is_empty = |k: &usize| norms[*k] <= ROUNDING * largest(rank(*k));
     let (empty, order): (Vec<usize>, Vec<usize>) = order.into_iter().partition(is_empty);
     // So that of as many columns together no direction is undecided.
     let least = RANK * unknowns.len() as f64;

@@ -9,6 +9,7 @@ use super::Misread;
 use crate::constants::{
     FAIR_STEPS, LIMIT_TIMES, LIMITED, MISTAKE_LEAVES, RATE_GOES, SAME_FACTOR, UNCHANGED, WHOLE_TURN,
 };
+use crate::infer::limits::SOME_SAMPLES;
 use crate::log::{Log, Run, Signal};
 
 /// Time over which a change of a joint is compared with the integral of its rate, s: many samples, and less than what a
@@ -17,9 +18,6 @@ const OVER: f64 = 0.05;
 
 /// Delays of a servo that are tried, s: up to, in steps.
 const FOLLOWS: [f64; 2] = [0.5, 0.02];
-
-/// Samples that are enough for a sign.
-const ENOUGH: usize = 20_000;
 
 /// All of them; `drive` is what drives the joints in the rows, if torques are looked at.
 pub(super) fn found(arm: &Arm, log: &Log, drive: Option<Signal>) -> Vec<Misread> {
@@ -159,7 +157,7 @@ fn is_against(log: &Log, joint: usize) -> bool {
     }
     let step = ((FOLLOWS[1] / log.period()).round() as usize).max(1);
     let most = (FOLLOWS[0] / log.period()).round() as usize;
-    let every = log.samples.div_ceil(ENOUGH).max(1);
+    let every = log.samples.div_ceil(SOME_SAMPLES).max(1);
     // Mean square of the joint less its command, times 1 or −1, from which a mean is taken in each run.
     let left = |sign: f64, lag: usize| -> f64 {
         let of_run = |run: &Run| {

@@ -9,9 +9,6 @@ use crate::log::search::dictionary::{Dictionary, Mixed};
 use crate::log::search::fit::weights;
 use crate::log::search::normal_equations::sum;
 
-/// Fine samples that are enough to tell a sign.
-pub(super) const ENOUGH: usize = 20_000;
-
 /// Rigid links, friction that brakes and zeros, beside which readings are asked for.
 pub(super) struct Plain<'a> {
     pub(super) dict: Dictionary<'a>,

@@ -7,9 +7,10 @@
 use std::borrow::Cow;
 
 use super::Misread;
-use super::plain::{ENOUGH, Plain};
+use super::plain::Plain;
 use crate::constants::{BAD_TORQUE, MISTAKE_LEAVES, SAME_SIGNS};
 use crate::effects::{Facts, InMotion, Law, Place, Spot};
+use crate::infer::limits::SOME_SAMPLES;
 use crate::log::Signal;
 use crate::log::scene::{Column, Scene};
 use crate::log::search::case::{Case, Wanted};
@@ -75,7 +76,7 @@ fn one(case: &Case<'_>, drive: Signal) -> Option<Misread> {
     let asked = Asked { drive, joints };
     let spread = spreads(case, &asked.joints);
     let is_well = |left: &[f64]| asked.joints.iter().all(|j| left[*j] < BAD_TORQUE * spread[*j]);
-    let is = asked.without(case, ENOUGH);
+    let is = asked.without(case, SOME_SAMPLES);
     if !is_well(&is)
         && let Some(found) = asked.best(&is, asked.tried(case))
     {
@@ -96,7 +97,7 @@ fn one(case: &Case<'_>, drive: Signal) -> Option<Misread> {
     });
     let cases: Vec<Case<'_>> =
         moved.iter().map(|signals| Case { signals, late, ..*case }).collect();
-    let alone = cases.iter().map(|case| asked.without(case, ENOUGH));
+    let alone = cases.iter().map(|case| asked.without(case, SOME_SAMPLES));
     let is = alone.min_by(|a, b| asked.sum(a).total_cmp(&asked.sum(b)))?;
     if is_well(&is) {
         return None;
@@ -128,7 +129,7 @@ impl Asked {
         let pairs: Vec<[usize; 2]> = pairs.filter(|[a, b]| a <= b).collect();
         let probes = pairs.iter().map(|pair| pair.map(|j| j as f64).to_vec()).collect();
         let wanted: Vec<Wanted> = vec![(&Retold, Spot::at(Place::Interface), probes)];
-        let plain = Plain::of(case, wanted, ENOUGH);
+        let plain = Plain::of(case, wanted, SOME_SAMPLES);
         let dict = &plain.dict;
         let last = dict.offers.len() - 1;
         let column = |(entry, [a, b]): (usize, &[usize; 2])| {
@@ -144,7 +145,7 @@ impl Asked {
             let misread = Misread::Sign { signal: Signal::Q, joint: *joint, or: None };
             let mut signals = case.signals.clone();
             turn(&mut signals, &misread);
-            let left = self.without(&Case { signals: &signals, ..*case }, ENOUGH);
+            let left = self.without(&Case { signals: &signals, ..*case }, SOME_SAMPLES);
             (misread, vec![*joint], left)
         };
         pairs.iter().enumerate().map(column).chain(joints.iter().map(angle)).collect()

@@ -5,9 +5,9 @@ use std::f64::consts::{PI, TAU};
 use stiffarm_kernels::Motion;
 
 use super::Misread;
-use super::plain::ENOUGH;
 use super::retold::{Asked, turn};
 use crate::constants::{FAIR_TORQUE, LEAST_ZERO, MISTAKE_LEAVES};
+use crate::infer::limits::SOME_SAMPLES;
 use crate::log::search::case::Case;
 
 /// Angles that are tried: least squares of sines and cosines fall from half a step, 15°, without another minimum.
@@ -64,7 +64,7 @@ impl Asked {
         }
         let by = 0.5 * (low + high);
         let by = by - TAU * ((by - PI) / TAU).ceil();
-        let after = left_of(joint, by, ENOUGH);
+        let after = left_of(joint, by, SOME_SAMPLES);
         let part = bad.iter().map(|j| (after[*j] / is[*j]).ln()).sum::<f64>() / bad.len() as f64;
         let is_less =
             self.sum(&after) < self.sum(is) && part < MISTAKE_LEAVES.ln() && by.abs() >= LEAST_ZERO;

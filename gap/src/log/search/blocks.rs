@@ -8,10 +8,8 @@
 use super::segments::Segment;
 use crate::constants::{FEWEST_OF_A_KIND, FEWEST_TO_JUDGE};
 use crate::infer::constants::FOLDS;
+use crate::infer::limits::CORRELATION_TIMES;
 use crate::signal::Signals;
-
-/// Correlation times of a block.
-const LENGTH: f64 = 5.0;
 
 /// A block of time.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -67,7 +65,7 @@ impl Blocks {
     pub fn of(segments: &[Segment], signals: &Signals, correlation: f64, may: bool) -> Blocks {
         let rows: usize = segments.iter().map(|segment| segment.rows.len()).sum();
         let segment = rows as f64 / segments.len() as f64 * signals.step();
-        let wanted = LENGTH * correlation.max(signals.reach());
+        let wanted = CORRELATION_TIMES * correlation.max(signals.reach());
         let most = (segments.len() / FEWEST_TO_JUDGE).max(1);
         let each = ((wanted / segment).ceil() as usize).clamp(1, most);
         let runs = runs(segments);

@@ -7,6 +7,7 @@ use super::dictionary::{Dictionary, Mixed};
 use super::fit::{Links, Term};
 use super::ripples;
 use crate::constants::{BELOW_ZERO, TAKEN_BACK};
+use crate::infer::limits::CONVERGED;
 use crate::log::TorqueSide;
 use crate::log::effects::{LogEffect, Spot};
 use crate::log::model::Acting;
@@ -14,9 +15,6 @@ use crate::log::rigid::Base;
 use crate::log::rigid::works::Works;
 use crate::log::scene::{Column, Domain, Loads, Scene};
 use crate::signal::Signals;
-
-/// What changes by less than this part is found.
-pub const FOUND: f64 = 1e-3;
 
 /// Fine samples are enough for the simple model.
 const ENOUGH: usize = 60_000;
@@ -74,13 +72,13 @@ impl Simple {
     }
 
     /// With the links' values as they were fitted beside findings; whether what they ask of some joint has changed by more
-    /// than [`FOUND`].
+    /// than [`CONVERGED`].
     pub fn moved_to(&mut self, dict: &Dictionary<'_>, values: Vec<f64>) -> bool {
         let columns: Vec<Mixed> = (0..values.len()).map(Mixed::one).collect();
         let less: Vec<f64> = values.iter().zip(&self.values).map(|(to, from)| to - from).collect();
         let sizes = |values: &[f64]| dict.sizes(&columns, values);
         let pairs = sizes(&less).into_iter().zip(sizes(&values));
-        let has_moved = pairs.into_iter().any(|(change, size)| change > FOUND * size);
+        let has_moved = pairs.into_iter().any(|(change, size)| change > CONVERGED * size);
         self.values = values;
         has_moved
     }

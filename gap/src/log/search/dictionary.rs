@@ -16,13 +16,11 @@ use super::fit::Term;
 use super::normal_equations::Sums;
 use super::segments::{Segment, segments};
 use crate::infer::correlation_time;
+use crate::infer::limits::SOME_SAMPLES;
 use crate::log::effects::{LATE, LogEffect, Spot};
 use crate::log::scene::Domain;
 use crate::parallel;
 use crate::signal::Signals;
-
-/// Rows that are kept, about.
-const SAMPLE: usize = 20_000;
 
 /// Fine samples of a stretch, about: what its columns take is a few tens of megabytes.
 const STRETCH: usize = 16_384;
@@ -126,7 +124,7 @@ impl<'a> Dictionary<'a> {
         let signals = case.signals;
         let (segments, counts) = (segments(signals), case.counts());
         let all = stretches(&segments, signals);
-        let every = signals.rows().div_ceil(SAMPLE);
+        let every = signals.rows().div_ceil(SOME_SAMPLES);
         let went: Vec<&Stretch> = all.iter().step_by(thinned).collect();
         let brought: Vec<Vec<Brought>> = parallel::each(&went, &|stretch| {
             bring(case, simple, wanted, stretch, &segments, &counts, every)
@@ -304,7 +302,7 @@ impl<'a> Dictionary<'a> {
     /// The correlation time of what is told at the rows of the sample, s.
     pub fn correlation(&self, sampled: &[Option<f64>]) -> f64 {
         let signals = self.case.signals;
-        let every = signals.rows().div_ceil(SAMPLE);
+        let every = signals.rows().div_ceil(SOME_SAMPLES);
         let mut parts: Vec<Vec<Option<f64>>> = vec![Vec::new(); signals.spans.len()];
         for (row, x) in self.rows.iter().zip(sampled) {
             let at = signals.spans.partition_point(|span| span.kept.end <= *row);

@@ -2,10 +2,8 @@
 
 use core::ops::Range;
 
+use crate::infer::limits::BLOCKS;
 use crate::signal::Signals;
-
-/// Grains of a log, about: a block of time is one of them, or a few.
-const COUNT: usize = 64;
 
 /// Rows that stand beside each other in one run.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -21,7 +19,7 @@ pub struct Segment {
 /// A division of the rows, none shorter than the filter's reach.
 pub fn segments(signals: &Signals) -> Vec<Segment> {
     let reach = (signals.reach() / signals.step()).ceil() as usize;
-    let length = reach.max(signals.rows() / COUNT).max(1);
+    let length = reach.max(signals.rows() / BLOCKS).max(1);
     let mut runs: Vec<(usize, Range<usize>)> = Vec::new();
     for span in &signals.spans {
         match runs.last_mut() {

@@ -97,7 +97,7 @@ impl InMotion for JointElasticity {
         let loads = rate(&load, signals.period);
         let bent = [rate(&loads, signals.period), loads, load];
         let most = bent[2].iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-        let by = if most > 0.0 { SAGS / most } else { 0.0 };
+        let by = if most > 0.0 { SMALL_MOVE / most } else { 0.0 };
         vec![scene.of_all(&scene.when_moved(joint, by, &bent))]
     }
 
@@ -109,12 +109,6 @@ impl InMotion for JointElasticity {
         behind_the_gear(scene)
     }
 }
-
-/// By how much a joint is moved at most to see what its sag changes, rad or m: first order to as much.
-const SAGS: f64 = 1e-4;
-
-/// Torques below this part of the largest are none.
-const ROUNDING: f64 = 1e-9;
 
 /// So many postures of the log show whether a joint feels weights.
 const POSTURES: usize = 50;

@@ -51,9 +51,6 @@ pub struct BacklashInMotion;
 /// Widths from which the search begins, rad or m.
 const WIDTHS: [f64; 6] = [6e-4, 2e-3, 6e-3, 2e-2, 6e-2, 2e-1];
 
-/// Part of a width by which the slope over it is taken.
-const STEP: f64 = 0.05;
-
 const POSITION: &Facts = &Facts {
     identifier: "backlash",
     reality: "A joint stops short of where it is driven to: teeth with play, or a servo that \
@@ -77,8 +74,9 @@ impl Law for BacklashInMotion {
 impl InMotion for BacklashInMotion {
     fn columns(&self, scene: &LogScene<'_>, spot: Spot, values: &[f64]) -> Vec<Column> {
         let (joint, width) = (spot.row(), values[0]);
-        let [less, more] = [1.0 - STEP, 1.0 + STEP].map(|by| dragged(scene, joint, by * width));
-        let slope = 1.0 / (2.0 * STEP * width);
+        let [less, more] =
+            [1.0 - SLOPE_STEP, 1.0 + SLOPE_STEP].map(|by| dragged(scene, joint, by * width));
+        let slope = 1.0 / (2.0 * SLOPE_STEP * width);
         vec![scene.column(joint, |k| slope * (more[k] - less[k]))]
     }
 

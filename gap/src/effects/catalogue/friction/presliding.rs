@@ -8,9 +8,6 @@ pub struct Presliding;
 /// Distances from which the search begins, rad.
 const DISTANCES: [f64; 5] = [3e-4, 1e-3, 3e-3, 1e-2, 3e-2];
 
-/// Part of a distance by which the slope over it is taken.
-const STEP: f64 = 0.05;
-
 /// A joint that turns round slides again after about so much, rad or m: teeth and rollers give by
 /// hundredths.
 const GIVES: f64 = 0.01;
@@ -45,8 +42,9 @@ impl InMotion for Presliding {
         if torque == 0.0 {
             return vec![built, scene.nothing(joint)];
         }
-        let [less, more] = [1.0 - STEP, 1.0 + STEP].map(|by| bristles(scene, joint, by * distance));
-        let slope = torque / (2.0 * STEP * distance);
+        let [less, more] =
+            [1.0 - SLOPE_STEP, 1.0 + SLOPE_STEP].map(|by| bristles(scene, joint, by * distance));
+        let slope = torque / (2.0 * SLOPE_STEP * distance);
         vec![built, scene.column(joint, |k| slope * (more[k] - less[k]))]
     }
 

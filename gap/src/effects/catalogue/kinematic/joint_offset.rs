@@ -53,9 +53,6 @@ const TORQUE: &Facts = &Facts {
     ..Facts::TORQUE
 };
 
-/// By how much a joint is turned to see what more of an offset does, rad: first order to as much.
-const MORE: f64 = 1e-4;
-
 impl JointOffsetInMotion {
     /// What the rigid links ask more of all joints, at fine samples.
     fn asks(scene: &LogScene<'_>, joint: usize, offset: f64) -> Vec<Vec<f64>> {
@@ -75,12 +72,12 @@ impl Law for JointOffsetInMotion {
 
 impl InMotion for JointOffsetInMotion {
     fn columns(&self, scene: &LogScene<'_>, spot: Spot, values: &[f64]) -> Vec<Column> {
-        let mut more = Self::asks(scene, spot.row(), values[0] + MORE);
+        let mut more = Self::asks(scene, spot.row(), values[0] + SMALL_MOVE);
         if values[0] != 0.0 {
             let is = Self::asks(scene, spot.row(), values[0]);
             more.iter_mut().flatten().zip(is.iter().flatten()).for_each(|(more, is)| *more -= is);
         }
-        more.iter_mut().flatten().for_each(|x| *x /= MORE);
+        more.iter_mut().flatten().for_each(|x| *x /= SMALL_MOVE);
         vec![scene.of_all(&more)]
     }
 
