@@ -11,8 +11,10 @@ const REPOSITORY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
 
 /// The Markdown of the repository's root, of `docs` and of the packages.
 fn pages() -> Vec<PathBuf> {
-    let folders =
-        ["", "docs", "cli", "codegen", "document", "gap", "kernels", "papers", "python", "robots"];
+    let folders = [
+        "", "docs", "cli", "codegen", "document", "expr", "gap", "kernels", "papers", "python",
+        "robots",
+    ];
     let markdown = |folder: &&str| {
         let entries = std::fs::read_dir(Path::new(REPOSITORY).join(folder)).expect("a folder");
         entries.map(|entry| entry.expect("an entry").path()).collect::<Vec<_>>()

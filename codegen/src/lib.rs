@@ -10,12 +10,13 @@ pub mod derive;
 pub mod emit;
 #[cfg(feature = "macro")]
 mod expand;
-pub mod expr;
 mod ir;
 mod out_dir;
 pub mod program;
+mod term;
 
 #[cfg(feature = "macro")]
 pub use expand::expand;
 pub use out_dir::{BuildError, generate_to_out_dir, read_robot};
+pub use stiffarm_expr as expr;
 pub use stiffarm_table::{number, robot};

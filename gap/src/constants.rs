@@ -1,5 +1,6 @@
 //! Numbers by which the diagnosis decides, each with its derivation or with what was measured of it; those of the
-//! inference are [`infer::constants`](crate::infer::constants).
+//! inference are [`infer::constants`](crate::infer::constants). Where neither is named the number is a judgement between
+//! what happens on either side of it, and the suites are the only measure.
 
 use core::f64::consts::PI;
 

@@ -4,11 +4,11 @@
 /// without a cause one has a finding (`campaigns::full`), of 60 logs two (`logs`).
 pub const SIGNIFICANT: f64 = 0.05;
 
-/// What noise does less often than this is not put down to noise, over all that was tried: what is left is unexplained,
-/// a noise is larger than it is told, a row does not belong to the others, what leaves more than a finding does not do
-/// as well. Nobody is to look for a cause that is not there. Measured by `stiffarm withhold` (seeds 7701, 7702): none
-/// of 150 campaigns without a cause has something unexplained. The sets of what does as well as a finding are to hold
-/// the truth of 97 in 100 logs.
+/// What noise does less often than this is not put down to noise: what is left is unexplained, a noise is larger than
+/// it is told, a row does not belong to the others (each over all that was tried), one rival leaves more than a finding
+/// (each for itself). Nobody is to look for a cause that is not there. Measured of what is left, by `stiffarm withhold`
+/// (seeds 7701, 7702): none of 150 campaigns without a cause has something unexplained. Rivals are to hold the truth of
+/// 97 in 100 logs.
 pub const BEYOND_NOISE: f64 = 0.01;
 
 /// Twice the logarithm of the odds below which two explanations are not distinguishable: `2 ln 20`.

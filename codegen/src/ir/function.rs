@@ -7,7 +7,7 @@ use super::constants::Constants;
 use super::lower::Lowering;
 use super::naming::{Naming, OwnAngle, component};
 use super::posture::{Plain, Posture};
-use super::schedule::{Binding, Item};
+use super::schedule::{Binding, Item, schedule};
 use super::statement::{Solve, Statement, read};
 use super::term::Name;
 use crate::derive::{Block, Own, Program};
@@ -74,7 +74,7 @@ impl Function {
         let own_angles = own_angles(g, &reached, &only);
         let mut naming = Naming::new(&program, &own_angles, (&only, &reached), constants);
         let (items, targets) = items(&program, &own_angles);
-        let steps = g.schedule(&items, |node| is_input(g, &only, node));
+        let steps = schedule(g, &items, |node| is_input(g, &only, node));
         let mut arguments = arguments(&program);
         naming.bindings(g, &steps, &arguments);
         let lowering = Lowering { graph: g, names: &naming.names, fused };

@@ -1,7 +1,7 @@
 //! Values of results.
 
 use crate::derive::Size;
-use crate::expr::term::Term;
+use crate::term::Term;
 
 /// The value of a result: made from a term, from an array or a `Vec` of terms, or from columns of them.
 pub struct Entries<'f> {

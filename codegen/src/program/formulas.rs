@@ -8,9 +8,9 @@ use super::geometry::{Frame, Point, Vector};
 use crate::derive::{
     Chain, Levers, OwnInput, Point as Place, Quantity, ROW, Size, derived, tool_offsets, twists,
 };
-use crate::expr::term::{Sheet, Term, cross, plus};
 use crate::expr::{Expr, Node, Symbol, Twist, Vec3};
 use crate::robot::Output;
+use crate::term::{Sheet, Term, cross, plus};
 
 /// Where a function is written down: see the [module](super). What it returns lives as long as it does.
 pub struct Formulas<'r> {

@@ -5,9 +5,9 @@ use super::mistake::Refused;
 use crate::derive::{
     Block, Held, Own, OwnInput, Passes, Program, Quantity, Readings, Way, cheapest,
 };
-use crate::expr::term::Mistake;
 use crate::expr::{OpCount, Symbol};
 use crate::robot::Robot;
+use crate::term::Mistake;
 
 /// A function of one's own: several results that share what they have in common.
 #[derive(Clone, Debug)]

@@ -3,8 +3,8 @@
 
 use core::ops::{Add, Mul, Neg, Sub};
 
-use crate::expr::term::{Sheet, Term, cross, plus};
 use crate::expr::{Expr, Graph, Vec3, parallel3};
+use crate::term::{Sheet, Term, cross, plus};
 
 /// A vector in space: a direction, a displacement, an axis.
 #[derive(Clone, Copy)]

@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use crate::expr::term::Mistake;
+use crate::term::Mistake;
 
 /// Why a function was not made: every mistake in it, each at its line of the build script.
 #[derive(Clone)]

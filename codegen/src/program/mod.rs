@@ -51,7 +51,7 @@ mod mistake;
 mod module;
 
 pub use crate::derive::{OwnInput, Quantity, Size};
-pub use crate::expr::term::Term;
+pub use crate::term::Term;
 pub use entries::Entries;
 pub use formulas::Formulas;
 pub use function::Function;

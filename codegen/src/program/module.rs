@@ -10,9 +10,9 @@ use crate::emit::{
     CFiles, COptions, CudaOptions, NotWritten, RustOptions, c_with, cuda_with, python_with,
     rust_with,
 };
-use crate::expr::term::Mistake;
 use crate::out_dir::{BuildError, write_to_out_dir};
 use crate::robot::{CLOSED_FORM, ELBOW_ANGLE, GIVES, INVERSE_KINEMATICS, Output, Robot};
+use crate::term::Mistake;
 
 /// An arm's module with functions of one's own.
 pub struct Module<'r> {

@@ -1,10 +1,10 @@
-//! What the inverse does with [terms](crate::expr::term) beside, and with vectors of them.
+//! What the inverse does with [terms](crate::term) beside, and with vectors of them.
 
 use crate::derive::chain::expression;
 use crate::expr::Expr;
-pub(super) use crate::expr::term::{Components as Vector, Sheet, Term, cross, plus};
 use crate::number::Number;
 use crate::robot::Value;
+pub(super) use crate::term::{Components as Vector, Sheet, Term, cross, plus};
 
 impl Sheet {
     /// A cell of the table.

@@ -1,7 +1,7 @@
 //! Constructors: exact folding of 0, ±1, signs and constants, and one canonical operand order.
 
 use super::graph::{Expr, Graph, Node};
-use crate::number::Number;
+use stiffarm_table::number::Number;
 
 impl Graph {
     /// A constant.

@@ -5,7 +5,7 @@ use core::cell::RefCell;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 use core::panic::Location;
 
-use super::graph::{Expr, Graph, Symbol};
+use crate::expr::{Expr, Graph, Symbol};
 use crate::number::Number;
 
 /// One thing that is wrong with a function, at a place of the build script where it has one.

@@ -74,12 +74,12 @@ impl Graph {
 }
 
 /// `-v`.
-pub(crate) fn negate3(v: Vec3) -> Vec3 {
+pub fn negate3(v: Vec3) -> Vec3 {
     v.map(|c| -c)
 }
 
 /// Whether two axes are the same line, known by their expressions being equal up to one sign.
-pub(crate) fn parallel3(a: Vec3, b: Vec3) -> bool {
+pub fn parallel3(a: Vec3, b: Vec3) -> bool {
     a == b || a == negate3(b)
 }
 

@@ -4,8 +4,8 @@ use num_rational::Ratio;
 use num_traits::CheckedAdd;
 
 use super::graph::{Expr, Graph, Node, Symbol};
-use crate::number::Number;
-use crate::robot::Angle;
+use stiffarm_table::number::Number;
+use stiffarm_table::robot::Angle;
 
 const LONG_DENOMINATOR: i64 = 1 << 30;
 

@@ -3,7 +3,7 @@
 use rustc_hash::FxHashMap;
 use stiffarm_kernels::Input;
 
-use crate::number::Number;
+use stiffarm_table::number::Number;
 
 /// A handle to a node, with a sign: negation costs nothing and is never a node of its own.
 /// The default is the structural zero.

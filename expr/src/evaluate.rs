@@ -39,14 +39,14 @@ impl Graph {
 }
 
 /// The nearest number of the type.
-pub(crate) fn from<T: Float>(x: f64) -> T {
+pub fn from<T: Float>(x: f64) -> T {
     T::from(x).unwrap_or_else(T::nan)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::number::Number;
+    use stiffarm_table::number::Number;
 
     #[test]
     fn evaluates_every_kind_of_node() {
