@@ -128,6 +128,7 @@ fn every_kind_is_simulated_diagnosed_and_predicted() {
         assert!(list(&found["findings"]).iter().any(named), "{kind}: {}", found["findings"]);
         let screen = run(&format!("diagnose irb120 {data} --bench {bench}")).good();
         assert!(screen.contains(&format!(" measurements of {subject} at ")), "{screen}");
+        assert_eq!(screen.contains("At the tool"), kind != "board", "{screen}");
     }
 }
 

@@ -1,6 +1,6 @@
 //! Where the error lies, what was co-estimated, what remains, what these data cannot show, what was not read.
 
-use stiffarm_gap::diagnose::{BenchReport, LeftOut, NuisanceReport, PairReport, Share};
+use stiffarm_gap::diagnose::{AtTool, BenchReport, LeftOut, NuisanceReport, PairReport, Share};
 use stiffarm_gap::gap::Statistics;
 use stiffarm_gap::measurement::ExtraColumn;
 
@@ -35,6 +35,7 @@ impl Campaign<'_> {
         let notes = [
             Some(shares("Located at", &self.found.places, remark)),
             Block::note("Depends on", self.parts()),
+            Block::note("At the tool", self.at_tool()),
             Block::note("Co-estimated", self.nuisances()),
             Block::note("Pairs", self.pairs()),
             Block::note("Loads", self.loads()),
@@ -46,6 +47,16 @@ impl Campaign<'_> {
             Block::note("Not used", self.not_used()),
         ];
         notes.into_iter().flatten().collect()
+    }
+
+    /// What an instrument's reading comes to at the tool.
+    fn at_tool(&self) -> String {
+        let Some(AtTool { before, after }) = self.found.gap.at_tool else { return String::new() };
+        let change = self.units().length([before, after]).change(before, after);
+        format!(
+            "{change} rms, by the findings and what they are uncertain by, at the measured postures and loads in the \
+             arm's base axes"
+        )
     }
 
     /// Whose axes loads and gravity are in, where that is not the convention.

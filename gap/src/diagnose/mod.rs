@@ -211,7 +211,7 @@ fn diagnose_as_told(
     let [size, statistics] = [&before, &after].map(|gaps| problem.statistics(gaps));
     let compare = |r: &verdict::Rival| r.compare(data, &problem.fits, &after, options.seed);
     let compared = compared.iter().map(compare).collect();
-    let diagnosis = Diagnosis {
+    let mut diagnosis = Diagnosis {
         stiffarm: options.version.clone(),
         robot: arm.name.clone(),
         measurements: data.rows.len(),
@@ -224,6 +224,7 @@ fn diagnose_as_told(
             nested,
             nested_in_time,
             noise: explained.noise.report(),
+            at_tool: None,
         },
         mistaken: None,
         places: looked.places,
@@ -264,6 +265,7 @@ fn diagnose_as_told(
         }
     };
     let explanation = told(explained);
+    diagnosis.gap.at_tool = explanation.at_tool(data)?;
     Ok(Diagnosed { diagnosis, explanation, beside_log, mended: None })
 }
 

@@ -373,6 +373,19 @@ pub struct GapReport {
     pub nested_in_time: Option<Statistics>,
     /// Of the measurement.
     pub noise: NoiseReport,
+    /// What that is at the tool; of an instrument that does not read the tool's position, where something was found.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub at_tool: Option<AtTool>,
+}
+
+/// The tool's error in the axes of the arm's base, by the model, at the postures and loads that were measured: root mean
+/// squares, m.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct AtTool {
+    /// Without the findings: how far they move the tool, and what they are uncertain by.
+    pub before: f64,
+    /// With them: what they are uncertain by. What no finding explains is not in it.
+    pub after: f64,
 }
 
 /// The noise of the measurement.

@@ -135,7 +135,7 @@ impl Model {
     }
 
     /// Brings one row to rest; `near` is where to begin.
-    pub(super) fn sim(
+    pub(crate) fn sim(
         &self,
         problem: &Problem<'_>,
         row: usize,

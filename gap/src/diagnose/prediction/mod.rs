@@ -5,6 +5,7 @@
 //! [`Expected`] at a posture that was not measured, with what the spread of the fitted numbers
 //! leaves of it.
 
+mod at_tool;
 mod expected;
 mod explanation;
 mod spread;

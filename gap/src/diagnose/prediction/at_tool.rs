@@ -1,0 +1,74 @@
+//! What an instrument's reading says of the tool: how far the findings move it, and how far it is then known.
+
+use nalgebra::Vector3;
+
+use super::explanation::Explanation;
+use crate::diagnose::data::Problem;
+use crate::diagnose::fit::{Fitted, Model};
+use crate::diagnose::options::{DiagnoseError, Options};
+use crate::diagnose::report::AtTool;
+use crate::effects::{Depends, Place};
+use crate::gap::rms;
+use crate::infer::limits::SOME_ROWS;
+use crate::measurement::{Kind, Measurements, Row};
+use crate::parallel;
+
+impl Explanation {
+    /// The tool's error at the postures and loads of `data`, by the model and the spread of its numbers, in the axes of the
+    /// arm's own base; `None` where positions are read themselves, or nothing was found. What moves the instrument, or
+    /// happened at a time, moves no tool.
+    ///
+    /// # Errors
+    /// [`DiagnoseError::Unstable`] and others of the rows.
+    pub(crate) fn at_tool(&self, data: &Measurements) -> Result<Option<AtTool>, DiagnoseError> {
+        let reads_tool = !matches!(data.kind, Kind::Bench { .. } | Kind::Distance);
+        let moves = |f: &Fitted| {
+            f.effect.depends() != Depends::Session && f.spot.place != Place::Instrument
+        };
+        let (mut numbers, mut first) = (Vec::new(), 6 * self.nuisances.len());
+        for found in &self.after.found {
+            let own = first..first + found.values.len();
+            first = own.end;
+            numbers.extend(own.filter(|_| moves(found)));
+        }
+        if reads_tool || numbers.is_empty() {
+            return Ok(None);
+        }
+        let bare = |row: &Row| Row {
+            offset: Some([0.0; 3]),
+            marker: None,
+            session: None,
+            camera: None,
+            aim: None,
+            ..row.clone()
+        };
+        let every = data.rows.len().div_ceil(SOME_ROWS).max(1);
+        let rows = data.rows.iter().step_by(every).map(bare).collect();
+        let data = Measurements::new(&data.file, Kind::Pose { orientation: false }, rows);
+        let options = Options { known: self.known.clone(), ..Options::default() };
+        let problem = Problem::new(&self.nominal, &data, &options)?;
+        let [before, after] = [&self.before, &self.after].map(|model| {
+            let mut model = model.clone();
+            model.markers.clear();
+            model.bench.clear();
+            model.mounts.clear();
+            model.bases = vec![self.nominal.base; problem.stands.bases.len()];
+            model.arm.tool = self.nominal.tool;
+            model.found.retain(moves);
+            model
+        });
+        let root = self.spread.root.select_rows(&numbers);
+        let place = |model: &Model, row: usize| -> Result<Vector3<f64>, DiagnoseError> {
+            Ok(model.sim(&problem, row, None)?.reading().position)
+        };
+        let counted: Vec<usize> = (0..data.rows.len()).filter(|row| problem.fits[*row]).collect();
+        let sizes = parallel::tried(counted.len(), &|k| -> Result<[f64; 2], DiagnoseError> {
+            let (row, sim) = (counted[k], after.sim(&problem, counted[k], None)?);
+            let block = after.change(&problem, &sim, row, |s| after.block(&problem, row, s));
+            let uncertain = (block.fixed_rows::<3>(0) * &root).norm();
+            Ok([(place(&after, row)? - place(&before, row)?).norm().hypot(uncertain), uncertain])
+        })?;
+        let [before, after] = [0, 1].map(|when| sizes.iter().map(|s| s[when]).collect::<Vec<_>>());
+        Ok(Some(AtTool { before: rms(&before), after: rms(&after) }))
+    }
+}
