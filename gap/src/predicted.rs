@@ -99,27 +99,3 @@ fn reading(
     let mask = Vector6::from_iterator(kind.components().map(f64::from));
     Ok(sim.seen_by(row.view(kind)).reading().vector().component_mul(&mask))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::fixture::springy;
-    use crate::instrument::{Aim, Seen};
-    use stiffarm_plant::design::{Design, Shape};
-
-    #[test]
-    fn what_nobody_knows_is_refused() {
-        let arm = springy();
-        let kind = Kind::Distance;
-        let design =
-            Design { shape: Shape::Force, poses: 2, repeats: 1, payload: 10.0, kind, seed: 2 };
-        let mut rows = design.rows(&arm);
-        rows.rows[3].aim = Some(Box::new(Aim::at(Seen::Distance, "")));
-        let error = predicted(&arm, &rows).unwrap_err();
-        assert!(matches!(error, DiagnoseError::NewPoint { .. }), "{error}");
-        rows.rows[1].marker = Some("smr".to_owned());
-        rows.rows[1].offset = None;
-        let error = predicted(&arm, &rows).unwrap_err();
-        assert!(matches!(error, DiagnoseError::NewMarker { .. }), "{error}");
-    }
-}

@@ -7,7 +7,7 @@ use stiffarm_gap::measurement::{Kind, Row};
 use stiffarm_gap::predicted::predicted;
 use stiffarm_gap::simulate::simulate;
 use stiffarm_gap::whole::Whole;
-use stiffarm_gap::{Diagnosis, Measurements, Options, diagnose, diagnose_with};
+use stiffarm_gap::{DiagnoseError, Diagnosis, Measurements, Options, diagnose, diagnose_with};
 use stiffarm_kernels::generic::{Arm, Convention};
 use stiffarm_plant::design::{Design, Shape};
 use stiffarm_plant::{Frames, Noise, PlantError, csv};
@@ -250,4 +250,19 @@ fn a_known_distance_between_sockets_tells_the_scale() {
     let tied = of(&tied);
     let left = (apart(&tied) - told).abs();
     assert!(left < 2e-4 && tied.pairs[0].fitted == apart(&tied), "{left:e} {:?}", tied.pairs);
+}
+
+/// Nothing but readings says where a thing is of which nobody knows it.
+#[test]
+fn a_plan_at_what_nobody_knows_is_refused() {
+    let arm = loaded(Convention::Standard);
+    let (shape, kind) = (Shape::Force, Kind::Distance);
+    let mut plan = Design { shape, poses: 2, repeats: 1, payload: 10.0, kind, seed: 2 }.rows(&arm);
+    plan.rows[3].aim = Some(Box::new(Aim::at(Seen::Distance, "")));
+    let error = predicted(&arm, &plan).unwrap_err();
+    assert!(matches!(error, DiagnoseError::NewPoint { .. }), "{error}");
+    plan.rows[1].marker = Some("smr".to_owned());
+    plan.rows[1].offset = None;
+    let error = predicted(&arm, &plan).unwrap_err();
+    assert!(matches!(error, DiagnoseError::NewMarker { .. }), "{error}");
 }

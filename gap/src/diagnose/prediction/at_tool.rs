@@ -1,7 +1,5 @@
 //! What an instrument's reading says of the tool: how far the findings move it, and how far it is then known.
 
-use nalgebra::Vector3;
-
 use super::explanation::Explanation;
 use crate::diagnose::data::Problem;
 use crate::diagnose::fit::{Fitted, Model};
@@ -25,12 +23,7 @@ impl Explanation {
         let moves = |f: &Fitted| {
             f.effect.depends() != Depends::Session && f.spot.place != Place::Instrument
         };
-        let (mut numbers, mut first) = (Vec::new(), 6 * self.nuisances.len());
-        for found in &self.after.found {
-            let own = first..first + found.values.len();
-            first = own.end;
-            numbers.extend(own.filter(|_| moves(found)));
-        }
+        let numbers = self.numbers(moves);
         if reads_tool || numbers.is_empty() {
             return Ok(None);
         }
@@ -58,12 +51,12 @@ impl Explanation {
             model
         });
         let root = self.spread.root.select_rows(&numbers);
-        let place = |model: &Model, row: usize| -> Result<Vector3<f64>, DiagnoseError> {
-            Ok(model.sim(&problem, row, None)?.reading().position)
+        let place = |model: &Model, row: usize| {
+            Ok::<_, DiagnoseError>(model.sim(&problem, row, None)?.reading().position)
         };
-        let counted: Vec<usize> = (0..data.rows.len()).filter(|row| problem.fits[*row]).collect();
-        let sizes = parallel::tried(counted.len(), &|k| -> Result<[f64; 2], DiagnoseError> {
-            let (row, sim) = (counted[k], after.sim(&problem, counted[k], None)?);
+        let rows: Vec<usize> = (0..data.rows.len()).filter(|row| problem.fits[*row]).collect();
+        let sizes = parallel::tried(rows.len(), &|k| -> Result<[f64; 2], DiagnoseError> {
+            let (row, sim) = (rows[k], after.sim(&problem, rows[k], None)?);
             let block = after.change(&problem, &sim, row, |s| after.block(&problem, row, s));
             let uncertain = (block.fixed_rows::<3>(0) * &root).norm();
             Ok([(place(&after, row)? - place(&before, row)?).norm().hypot(uncertain), uncertain])

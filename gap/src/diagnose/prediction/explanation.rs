@@ -181,19 +181,24 @@ impl Explanation {
         }
         let before = start.predict(&problem, None)?.gaps;
         let after = model.predict(&problem, None)?;
-        let frames = 6 * problem.nuisances.len();
-        let mut numbers: Vec<usize> = (0..frames).collect();
-        let mut first = frames;
-        for found in &self.after.found {
-            let own = first..first + found.values.len();
-            first = own.end;
-            numbers.extend(own.filter(|_| lasts(found)));
-        }
+        let mut numbers: Vec<usize> = (0..6 * problem.nuisances.len()).collect();
+        numbers.extend(self.numbers(lasts));
         let each = data.rows.iter().enumerate();
         let inside = each.map(|(number, row)| {
             self.covers.holds(row) && self.spread.covers(&problem, &model, &after, number, &numbers)
         });
         Ok(Prediction { before, inside: inside.collect(), after: after.gaps })
+    }
+
+    /// The numbers of those effects that are wanted, as the spread has them.
+    pub(super) fn numbers(&self, is_wanted: impl Fn(&Fitted) -> bool) -> Vec<usize> {
+        let (mut numbers, mut first) = (Vec::new(), 6 * self.nuisances.len());
+        for found in &self.after.found {
+            let own = first..first + found.values.len();
+            first = own.end;
+            numbers.extend(own.filter(|_| is_wanted(found)));
+        }
+        numbers
     }
 
     /// Which of the diagnosed sessions a session of other data is measured in; `None` is another one.
