@@ -45,8 +45,8 @@ impl Explanation {
             model.markers.clear();
             model.bench.clear();
             model.mounts.clear();
-            model.bases = vec![self.nominal.base; problem.stands.bases.len()];
-            model.arm.tool = self.nominal.tool;
+            model.bases = vec![self.after.bases[0]; problem.stands.bases.len()];
+            model.arm.tool = self.after.arm.tool;
             model.found.retain(moves);
             model
         });
