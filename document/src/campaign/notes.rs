@@ -54,8 +54,8 @@ impl Campaign<'_> {
         let Some(AtTool { before, after }) = self.found.gap.at_tool else { return String::new() };
         let change = self.units().length([before, after]).change(before, after);
         format!(
-            "{change} rms, by the findings and what they are uncertain by, at the measured postures and loads in the \
-             arm's base axes"
+            "{change} rms: how far the findings move the tool, and how uncertain they leave it, at the measured postures \
+             and loads"
         )
     }
 
