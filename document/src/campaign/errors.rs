@@ -9,8 +9,7 @@ use super::Campaign;
 use crate::figure::Step;
 use crate::findings;
 use crate::report::Errors;
-use crate::text::counted;
-use crate::text::minus;
+use crate::text::{counted, minus};
 use crate::words::{capital, less, named, noise_from, percent};
 use crate::{Block, Cell, Row, Table, Unit};
 

@@ -3,8 +3,7 @@
 use stiffarm_gap::diagnose::{Correlation, Observability};
 
 use super::Campaign;
-use crate::text::counted;
-use crate::text::fixed;
+use crate::text::{counted, fixed};
 use crate::words::{percent, words};
 use crate::{Block, Cell, Table};
 

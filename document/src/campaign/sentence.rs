@@ -5,8 +5,7 @@ use stiffarm_gap::effects::Told;
 
 use super::Campaign;
 use crate::findings::told;
-use crate::text::counted;
-use crate::text::fixed;
+use crate::text::{counted, fixed};
 use crate::words::{capital, named, percent};
 
 /// A smaller error is one of rounding, m and rad.

@@ -16,8 +16,7 @@ use crate::figure::{
     residuals, shares,
 };
 use crate::report::{Errors, Method, Report};
-use crate::text::counted;
-use crate::text::short;
+use crate::text::{counted, short};
 use crate::words::{capital, noise_from, percent};
 use crate::{Block, Cell, Document, Embedded, PageError, Row, Table, Unit, Units};
 

@@ -17,8 +17,7 @@ use super::report::{Errors, Method, Report, explained};
 use super::words::{at, capital, gathered, joined, less, named, percent, words};
 use super::{Block, Cell, Document, Embedded, Row, Table, Unit};
 use crate::beside::LogCheck;
-use crate::text::counted;
-use crate::text::{decimals, fixed, minus, short};
+use crate::text::{counted, decimals, fixed, minus, short};
 
 /// Effects that the sentence names.
 const NAMED: usize = 4;

@@ -4,8 +4,7 @@ use stiffarm_gap::report::log::Dependence;
 
 use super::Log;
 use crate::Block;
-use crate::text::counted;
-use crate::text::{listed, short};
+use crate::text::{counted, listed, short};
 use crate::words::{gathered, share, words};
 
 /// Entries of a list before the rest is counted.
