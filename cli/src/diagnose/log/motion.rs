@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 use stiffarm_codegen::robot::Robot;
-use stiffarm_document::beside::LogCheck as Check;
+use stiffarm_document::beside::LogCheck;
 use stiffarm_document::log::{Fitted, Log as Reported, left};
 use stiffarm_document::text::counted;
 use stiffarm_document::{Document, Embedded};
@@ -36,7 +36,7 @@ pub struct Motion {
     log: Log,
     found: LogDiagnosis,
     model: Model,
-    check: Option<Check>,
+    check: Option<LogCheck>,
 }
 
 /// The diagnosis as it is written.
@@ -45,7 +45,7 @@ pub struct Told<'a> {
     #[serde(flatten)]
     diagnosis: &'a LogDiagnosis,
     #[serde(skip_serializing_if = "Option::is_none")]
-    check: Option<&'a Check>,
+    check: Option<&'a LogCheck>,
     /// The robot file with what was found: the whole is a robot to every command. Of currents there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     corrected: Option<String>,
@@ -115,7 +115,7 @@ impl Motion {
 
     fn predicted(&self, other: &Log) -> Result<PredictedLog, Failure> {
         let explained = self.model.explain(&self.arm, other)?;
-        let check = Check::of(&self.found, &self.model, other, &explained);
+        let check = LogCheck::of(&self.found, &self.model, other, &explained);
         Ok(PredictedLog { explained, check })
     }
 

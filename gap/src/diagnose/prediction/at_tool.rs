@@ -40,10 +40,7 @@ impl Explanation {
         let data = Measurements::new(&data.file, Kind::Pose { orientation: false }, rows);
         let options = Options { known: self.known.clone(), ..Options::default() };
         let problem = Problem::new(&self.nominal, &data, &options)?;
-        let [before, after] = [&self.before, &self.after].map(|model| {
-            let mut model = model.clone();
-            model.markers.clear();
-            model.bench.clear();
+        let [before, after] = self.without_bench().map(|mut model| {
             model.mounts.clear();
             model.bases = vec![self.after.bases[0]; problem.stands.bases.len()];
             model.arm.tool = self.after.arm.tool;

@@ -5,7 +5,6 @@ use nalgebra::Vector6;
 
 use super::explanation::Explanation;
 use crate::diagnose::data::Problem;
-use crate::diagnose::fit::Model;
 use crate::diagnose::options::DiagnoseError;
 use crate::measurement::{Kind, Measurements, Row};
 
@@ -54,13 +53,7 @@ impl Explanation {
         };
         let data = Measurements::new("the posture", kind, vec![row]);
         let problem = Problem::new(&self.nominal, &data, &self.options())?;
-        let placed = |model: &Model| {
-            let mut model = model.clone();
-            model.markers.clear();
-            model.bench.clear();
-            model
-        };
-        let (before, after) = (placed(&self.before), placed(&self.after));
+        let [before, after] = self.without_bench();
         let (without, with) = (before.predict(&problem, None)?, after.predict(&problem, None)?);
         let first = if problem.measures_position() { 0 } else { 3 };
         let shift = (without.gaps[0] - with.gaps[0]).component_mul(&problem.mask);

@@ -190,6 +190,16 @@ impl Explanation {
         Ok(Prediction { before, inside: inside.collect(), after: after.gaps })
     }
 
+    /// The models without the findings and with them, of an arm that nothing is read of but its tool.
+    pub(super) fn without_bench(&self) -> [Model; 2] {
+        [&self.before, &self.after].map(|model| {
+            let mut model = model.clone();
+            model.markers.clear();
+            model.bench.clear();
+            model
+        })
+    }
+
     /// The numbers of those effects that are wanted, as the spread has them.
     pub(super) fn numbers(&self, is_wanted: impl Fn(&Fitted) -> bool) -> Vec<usize> {
         let (mut numbers, mut first) = (Vec::new(), 6 * self.nuisances.len());
