@@ -1,0 +1,3 @@
+//! Its dependencies are those of procedural macros.
+
+fn main() {}
