@@ -149,7 +149,9 @@ fn singles_are_the_rust_kernels_bits(compiler: &str) {
 
 /// One number at a time, and the registers beyond those that the target has anyway.
 fn as_many_lanes_as_there_are_have_the_same_bits(compiler: &str) {
-    let mut widths = vec![&["-O2", "-U__SSE2__"][..], &["-O2", "-U__aarch64__"]];
+    let own = if cfg!(target_arch = "aarch64") { "-U__aarch64__" } else { "-U__SSE2__" };
+    let single = ["-O2", own];
+    let mut widths = vec![&single[..]];
     #[cfg(target_arch = "x86_64")]
     {
         let (avx2, avx512) =

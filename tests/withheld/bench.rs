@@ -125,7 +125,7 @@ fn judged(cases: usize, seed: u64) -> Goals {
 
 #[test]
 fn quick() {
-    let goals = judged(4, 1);
+    let goals = judged(2, 1);
     assert!(goals.missed_beyond_chance().is_empty(), "{goals}");
 }
 

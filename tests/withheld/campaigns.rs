@@ -62,7 +62,7 @@ fn run(setting: &Setting, cases: usize) -> Report {
 #[test]
 fn quick() {
     let quick: Vec<Setting> = settings().into_iter().filter(|s| s.quick).collect();
-    let reports: Vec<_> = quick.iter().map(|setting| run(setting, 12)).collect();
+    let reports: Vec<_> = quick.iter().map(|setting| run(setting, 8)).collect();
     let goals = Goals::of(&reports, CAMPAIGNS);
     println!("{goals}");
     reports.iter().for_each(|report| print!("{}", strays(report)));

@@ -571,10 +571,10 @@ fn a_mistake_in_sockets_is_named() {
     );
 }
 
-/// Three mistakes with each instrument, and at few poses.
+/// Two or three mistakes with each instrument, and at few poses.
 #[test]
 fn instruments_quick() {
-    let [named, of, alarms, _] = few(1..2, 3);
+    let [named, of, alarms, _] = few(1..2, 4);
     assert!(10 * named >= 8 * of && alarms == 0, "{named} of {of}, {alarms}");
 }
 
