@@ -9,16 +9,17 @@ const SMALL: &str = "withhold bicchi_3r --effects joint_offset,joint_compliance 
 #[test]
 fn the_json_has_every_case_and_the_seed_decides() {
     let folder = Folder::new();
-    let run = |name: &str, seed: &str| {
+    let run = |small: &str, name: &str, seed: &str| {
         let file = folder.name(name);
-        let out = crate::support::run(&format!("{SMALL} --json {file} --seed {seed}")).good();
+        let out = crate::support::run(&format!("{small} --json {file} --seed {seed}")).good();
         assert_eq!(out, "");
         std::fs::read_to_string(file).expect("written")
     };
-    let (one, again) = (run("a", "1"), run("b", "1"));
+    let single = SMALL.replace("--cases 4", "--cases 1");
+    let (one, again) = (run(&single, "a", "1"), run(&single, "b", "1"));
     assert_eq!(one, again);
-    assert_ne!(one, run("c", "2"));
-    let report = json(&one);
+    assert_ne!(one, run(&single, "c", "2"));
+    let report = json(&run(SMALL, "d", "1"));
     assert_eq!(report["cases"].as_array().map(Vec::len), Some(4));
     assert_eq!(report["stiffarm"], env!("CARGO_PKG_VERSION"));
     for key in ["false_alarms", "single", "pairs", "removed", "after", "confusion"] {
