@@ -156,7 +156,6 @@ fn definite<S: Scalar, const N: usize>(
 /// * The second pivot of the two, times the first, is a determinant, so that both are divided by at once.
 /// * It is the rows of the pivots that are divided, not the columns: then each unknown follows from the next ones
 ///   without a product of its own.
-#[allow(clippy::needless_range_loop, reason = "a column is changed while another one is read")]
 #[inline(always)]
 fn eliminate<S: Scalar, const N: usize>(
     mut a: [[S; N]; N],
@@ -164,42 +163,14 @@ fn eliminate<S: Scalar, const N: usize>(
     less: impl Fn(S, S, S) -> S,
 ) -> Result<[S; N], Unstable> {
     let mut stable = true;
-    let begin = |k: usize| if N <= WRITTEN_OUT { 0 } else { k };
-    for two in 0..N.div_ceil(2) {
-        let (k, l) = (2 * two, 2 * two + 1);
-        let pivot = a[k][k];
-        stable &= pivot.is_positive();
-        if l < N {
-            let below = a[k][l];
-            let both = less(pivot * a[l][l], below, a[l][k]);
-            stable &= both.is_positive();
-            let inverse = both.recip();
-            for column in begin(l)..N {
-                if column > l {
-                    a[column][l] = less(pivot * a[column][l], below, a[column][k]) * inverse;
-                }
-            }
-            b[l] = less(pivot * b[l], below, b[k]) * inverse;
-        }
-        let inverse = pivot.recip();
-        for column in begin(k)..N {
-            if column > k {
-                a[column][k] = a[column][k] * inverse;
-            }
-        }
-        b[k] = b[k] * inverse;
-        for i in begin(l)..N {
-            if i > l {
-                for of in [k, l] {
-                    for column in begin(of)..N {
-                        if column > of {
-                            a[column][i] = less(a[column][i], a[of][i], a[column][of]);
-                        }
-                    }
-                    b[i] = less(b[i], a[of][i], b[of]);
-                }
-            }
-        }
+    if N <= WRITTEN_OUT {
+        // Each call is for one number, so that the compiler knows all bounds before it writes loops out.
+        stable &= two(0, &mut a, &mut b, &less);
+        stable &= N <= 2 || two(2, &mut a, &mut b, &less);
+        stable &= N <= 4 || two(4, &mut a, &mut b, &less);
+        stable &= N <= 6 || two(6, &mut a, &mut b, &less);
+    } else {
+        (0..N).step_by(2).for_each(|k| stable &= two(k, &mut a, &mut b, &less));
     }
     if !stable {
         return Err(Unstable);
@@ -212,6 +183,43 @@ fn eliminate<S: Scalar, const N: usize>(
         }
     }
     Ok(b)
+}
+
+/// Eliminates unknown `k` and the next one; whether their pivots are positive.
+#[allow(clippy::needless_range_loop, reason = "a column is changed while another one is read")]
+#[inline(always)]
+fn two<S: Scalar, const N: usize>(
+    k: usize,
+    a: &mut [[S; N]; N],
+    b: &mut [S; N],
+    less: &impl Fn(S, S, S) -> S,
+) -> bool {
+    let (l, pivot) = (k + 1, a[k][k]);
+    let mut stable = pivot.is_positive();
+    if l < N {
+        let below = a[k][l];
+        let both = less(pivot * a[l][l], below, a[l][k]);
+        stable &= both.is_positive();
+        let inverse = both.recip();
+        for column in l + 1..N {
+            a[column][l] = less(pivot * a[column][l], below, a[column][k]) * inverse;
+        }
+        b[l] = less(pivot * b[l], below, b[k]) * inverse;
+    }
+    let inverse = pivot.recip();
+    for column in l..N {
+        a[column][k] = a[column][k] * inverse;
+    }
+    b[k] = b[k] * inverse;
+    for i in l + 1..N {
+        for of in [k, l] {
+            for column in of + 1..N {
+                a[column][i] = less(a[column][i], a[of][i], a[column][of]);
+            }
+            b[i] = less(b[i], a[of][i], b[of]);
+        }
+    }
+    stable
 }
 
 #[cfg(test)]
