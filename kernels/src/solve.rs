@@ -98,8 +98,9 @@ fn follow<S: Scalar, const N: usize, const M: usize>(
     let x = eliminate(leading, core::array::from_fn(|i| b[i]), &less)?;
     let mut stable = true;
     for i in M..N {
-        for (column, x) in a.iter().zip(x) {
-            b[i] = less(b[i], column[i], x);
+        // The first unknown is the last to be known.
+        for k in (0..M).rev() {
+            b[i] = less(b[i], a[k][i], x[k]);
         }
         // The difference is zero but where the row is not finite.
         stable &= (a[i][i] + (b[i] - b[i])).is_positive();
@@ -149,8 +150,12 @@ fn definite<S: Scalar, const N: usize>(
     if stable { Ok(()) } else { Err(Unstable) }
 }
 
-/// Elimination with `less(x, factor, y)` for `x - factor·y`.
-#[allow(clippy::needless_range_loop, reason = "a column is changed while another one is read")]
+/// Elimination with `less(x, factor, y)` for `x - factor·y`, two unknowns at a time. What it costs is mostly that
+/// each pivot waits for the one before:
+///
+/// * The second pivot of the two, times the first, is a determinant, so that both are divided by at once.
+/// * It is the rows of the pivots that are divided, not the columns: then each unknown follows from the next ones
+///   without a product of its own.
 #[inline(always)]
 fn eliminate<S: Scalar, const N: usize>(
     mut a: [[S; N]; N],
@@ -158,28 +163,19 @@ fn eliminate<S: Scalar, const N: usize>(
     less: impl Fn(S, S, S) -> S,
 ) -> Result<[S; N], Unstable> {
     let mut stable = true;
-    let mut inverse = b;
-    let begin = |k: usize| if N <= WRITTEN_OUT { 0 } else { k };
-    for k in 0..N {
-        stable &= a[k][k].is_positive();
-        inverse[k] = a[k][k].recip();
-        for i in begin(k)..N {
-            if i > k {
-                let factor = a[k][i] * inverse[k];
-                for column in begin(k)..N {
-                    if column > k {
-                        a[column][i] = less(a[column][i], factor, a[column][k]);
-                    }
-                }
-                b[i] = less(b[i], factor, b[k]);
-            }
-        }
+    if N <= WRITTEN_OUT {
+        // Each call is for one number, so that the compiler knows all bounds before it writes loops out.
+        stable &= two(0, &mut a, &mut b, &less);
+        stable &= N <= 2 || two(2, &mut a, &mut b, &less);
+        stable &= N <= 4 || two(4, &mut a, &mut b, &less);
+        stable &= N <= 6 || two(6, &mut a, &mut b, &less);
+    } else {
+        (0..N).step_by(2).for_each(|k| stable &= two(k, &mut a, &mut b, &less));
     }
     if !stable {
         return Err(Unstable);
     }
     for k in (0..N).rev() {
-        b[k] = b[k] * inverse[k];
         for i in 0..if N <= WRITTEN_OUT { N } else { k } {
             if i < k {
                 b[i] = less(b[i], a[k][i], b[k]);
@@ -187,6 +183,43 @@ fn eliminate<S: Scalar, const N: usize>(
         }
     }
     Ok(b)
+}
+
+/// Eliminates unknown `k` and the next one; whether their pivots are positive.
+#[allow(clippy::needless_range_loop, reason = "a column is changed while another one is read")]
+#[inline(always)]
+fn two<S: Scalar, const N: usize>(
+    k: usize,
+    a: &mut [[S; N]; N],
+    b: &mut [S; N],
+    less: &impl Fn(S, S, S) -> S,
+) -> bool {
+    let (l, pivot) = (k + 1, a[k][k]);
+    let mut stable = pivot.is_positive();
+    if l < N {
+        let below = a[k][l];
+        let both = less(pivot * a[l][l], below, a[l][k]);
+        stable &= both.is_positive();
+        let inverse = both.recip();
+        for column in l + 1..N {
+            a[column][l] = less(pivot * a[column][l], below, a[column][k]) * inverse;
+        }
+        b[l] = less(pivot * b[l], below, b[k]) * inverse;
+    }
+    let inverse = pivot.recip();
+    for column in l..N {
+        a[column][k] = a[column][k] * inverse;
+    }
+    b[k] = b[k] * inverse;
+    for i in l + 1..N {
+        for of in [k, l] {
+            for column in of + 1..N {
+                a[column][i] = less(a[column][i], a[of][i], a[column][of]);
+            }
+            b[i] = less(b[i], a[of][i], b[of]);
+        }
+    }
+    stable
 }
 
 #[cfg(test)]

@@ -41,10 +41,10 @@ pub(crate) fn sin_cos<F: Masked>(angle: F) -> (F, F) {
     let multiple = shifted - of(SHIFT);
     // The first difference is exact. The second rounds; what it loses is `lost`, exactly.
     let first = multiple.mul_add(of(-HALF_PI[0]), angle);
-    let head = multiple.mul_add(of(-HALF_PI[1]), first);
-    let lost = multiple.mul_add(of(-HALF_PI[1]), first - head);
-    let rest = multiple.mul_add(of(-HALF_PI[2]), lost);
-    let r = nan_beyond(head, angle, LARGEST);
+    let r = multiple.mul_add(of(-HALF_PI[1]), first);
+    let lost = multiple.mul_add(of(-HALF_PI[1]), first - r);
+    // Both results take the rest in last, so that it may be what is no number.
+    let rest = nan_beyond(multiple, angle, LARGEST).mul_add(of(-HALF_PI[2]), lost);
 
     // The reduced angle is `r + rest`; `1 - (r + rest)²/2` without the square of the rest is
     // `1 + r·(-r/2 - rest)`.

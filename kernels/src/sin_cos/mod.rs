@@ -70,10 +70,10 @@ fn turn<F: Masked>(shifted: F, sine: F, cosine: F) -> (F, F) {
     )
 }
 
-/// `reduced`, NaN where `|angle|` is above `limit`.
+/// `x`, NaN where `|angle|` is above `limit`.
 #[inline(always)]
-fn nan_beyond<F: Masked>(reduced: F, angle: F, limit: f64) -> F {
-    F::from_bits(reduced.bits() | angle.above(limit))
+fn nan_beyond<F: Masked>(x: F, angle: F, limit: f64) -> F {
+    F::from_bits(x.bits() | angle.above(limit))
 }
 
 /// What a scalar and its lanes have in common.

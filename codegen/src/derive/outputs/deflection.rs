@@ -64,19 +64,22 @@ pub(super) fn deflection(chain: &mut Chain, output: Output) -> Derived {
             system.push(entry);
         }
     }
-    let mut sum = Sum::default();
     let (mut torques, mut unknowns) = (Vec::new(), Vec::new());
     for &j in &compliant {
         torques.push(torque(chain, j, w, weight.as_ref()));
-        let unknown = chain.g.symbol(Symbol::Deflection { joint: j, weights });
-        unknowns.push(unknown);
-        sum.add(chain, twists[j], unknown);
+        unknowns.push(chain.g.symbol(Symbol::Deflection { joint: j, weights }));
+    }
+    let margin = margin::margin(chain.robot, weights);
+    let solve = Solve { output, matrix: system, right: torques, unknowns, margin };
+    let mut sum = Sum::default();
+    // In the order in which the unknowns become known, so that little is left to do after the last.
+    let (last, known) = (0..compliant.len()).partition::<Vec<_>, _>(|k| *k >= solve.leading());
+    for k in known.into_iter().rev().chain(last) {
+        sum.add(chain, twists[compliant[k]], solve.unknowns[k]);
     }
     links(chain, &mut sum, weights);
     sum.turn(chain, friction, weight.as_ref());
     sum.turn(chain, hardening, weight.as_ref());
-    let margin = margin::margin(chain.robot, weights);
-    let solve = Solve { output, matrix: system, right: torques, unknowns, margin };
     Derived { entries: sum.in_base(chain), solve: (!compliant.is_empty()).then_some(solve) }
 }
 

@@ -95,9 +95,9 @@ pub(super) fn solve(out: &mut Lines, (n, m): (usize, usize), name: &str, languag
     };
     out.verbatim(&format!(
         "
-/* Solves a * x = b by elimination without pivoting; a is column-major, x takes the place of b. Where
- * the symmetric part of a is positive definite, every pivot is positive; a positive margin says that
- * it is.{more} */
+/* Solves a * x = b by elimination without pivoting, two unknowns at a time; a is column-major, x takes
+ * the place of b. Where the symmetric part of a is positive definite, every pivot is positive; a
+ * positive margin says that it is.{more} */
 {local} {name}_status_t {function}({real} a[{size}], {real} b[{n}], {real} margin)
 {{
     {name}_status_t status = {upper}_OK;
@@ -128,29 +128,58 @@ const LOOPED_SUM: &str = "        for (column = 0U; column < ROWS; column++)
         }
 ";
 
-const LOOPED: &str = "    for (k = 0U; k < LEADING; k++)
+const LOOPED: &str = "    for (k = 0U; k < LEADING; k += 2U)
     {
-        if (!(a[(k * ROWS) + k] > ZERO))
+        const unsigned int l = k + 1U;
+        const REAL pivot = a[(k * ROWS) + k];
+
+        if (!(pivot > ZERO))
         {
             status = REFUSED;
         }
-        a[(k * ROWS) + k] = ONE / a[(k * ROWS) + k];
-        for (i = k + 1U; i < LEADING; i++)
+        if (l < LEADING)
         {
-            const REAL factor = a[(k * ROWS) + i] * a[(k * ROWS) + k];
+            const REAL below = a[(k * ROWS) + l];
+            const REAL both = pivot * a[(l * ROWS) + l] - below * a[(l * ROWS) + k];
+            const REAL inverse = ONE / both;
 
-            for (column = k + 1U; column < LEADING; column++)
+            if (!(both > ZERO))
             {
-                a[(column * ROWS) + i] = a[(column * ROWS) + i] - factor * a[(column * ROWS) + k];
+                status = REFUSED;
             }
-            b[i] = b[i] - factor * b[k];
+            for (column = l + 1U; column < LEADING; column++)
+            {
+                a[(column * ROWS) + l] =
+                    (pivot * a[(column * ROWS) + l] - below * a[(column * ROWS) + k]) * inverse;
+            }
+            b[l] = (pivot * b[l] - below * b[k]) * inverse;
+        }
+        a[(k * ROWS) + k] = ONE / pivot;
+        for (column = l; column < LEADING; column++)
+        {
+            a[(column * ROWS) + k] = a[(column * ROWS) + k] * a[(k * ROWS) + k];
+        }
+        b[k] = b[k] * a[(k * ROWS) + k];
+        for (i = l + 1U; i < LEADING; i++)
+        {
+            for (column = l; column < LEADING; column++)
+            {
+                a[(column * ROWS) + i] =
+                    a[(column * ROWS) + i] - a[(k * ROWS) + i] * a[(column * ROWS) + k];
+            }
+            b[i] = b[i] - a[(k * ROWS) + i] * b[k];
+            for (column = l + 1U; column < LEADING; column++)
+            {
+                a[(column * ROWS) + i] =
+                    a[(column * ROWS) + i] - a[(l * ROWS) + i] * a[(column * ROWS) + l];
+            }
+            b[i] = b[i] - a[(l * ROWS) + i] * b[l];
         }
     }
     for (k = LEADING; k > 0U; k--)
     {
         const unsigned int last = k - 1U;
 
-        b[last] = b[last] * a[(last * ROWS) + last];
         for (i = 0U; i < last; i++)
         {
             b[i] = b[i] - a[(last * ROWS) + i] * b[last];
@@ -163,9 +192,9 @@ const FOLLOW: &str = "    for (i = LEADING; i < ROWS; i++)
     {
         const REAL pivot = a[(i * ROWS) + i];
 
-        for (column = 0U; column < LEADING; column++)
+        for (k = LEADING; k > 0U; k--)
         {
-            b[i] = b[i] - a[(column * ROWS) + i] * b[column];
+            b[i] = b[i] - a[((k - 1U) * ROWS) + i] * b[k - 1U];
         }
         /* The difference is zero but where the row is not finite. */
         if (!((pivot + (b[i] - b[i])) > ZERO))
@@ -193,24 +222,40 @@ fn written_out((n, m): (usize, usize), upper: &str, language: &C) -> String {
             "if (!({unless} > 0.0{suffix}))\n    {{\n        status = {upper}_UNSTABLE;\n    }}"
         )
     };
-    for k in 0..m {
-        let pivot = a(k, k);
+    // Entries of a row from a column on, and the right-hand side's.
+    let entries = |from: usize, row: usize| {
+        let right = format!("b[{row}]");
+        (from..m).map(|column| a(column, row)).chain([right]).collect::<Vec<String>>()
+    };
+    for k in (0..m).step_by(2) {
+        let (l, pivot) = (k + 1, a(k, k));
         lines.push(refuse(pivot.clone()));
+        if l < m {
+            let (below, both, inverse) = (a(k, l), format!("both{k}"), a(l, l));
+            let across = a(l, k);
+            lines.push(format!("const {real} {both} = {pivot} * {inverse} - {below} * {across};"));
+            lines.push(refuse(both.clone()));
+            lines.push(format!("{inverse} = 1.0{suffix} / {both};"));
+            for (x, y) in entries(l + 1, l).iter().zip(entries(l + 1, k)) {
+                lines.push(format!("{x} = ({pivot} * {x} - {below} * {y}) * {inverse};"));
+            }
+        }
         lines.push(format!("{pivot} = 1.0{suffix} / {pivot};"));
-        for i in k + 1..m {
-            lines.push(format!("const {real} l{i}{k} = {} * {pivot};", a(k, i)));
-            let row = (k + 1..m).map(|column| [a(column, i), a(column, k)]);
-            for [x, y] in row.chain([[format!("b[{i}]"), format!("b[{k}]")]]) {
-                lines.push(format!("{x} = {x} - l{i}{k} * {y};"));
+        lines.extend(entries(l, k).iter().map(|x| format!("{x} = {x} * {pivot};")));
+        for i in l + 1..m {
+            for of in [k, l] {
+                for (x, y) in entries(of + 1, i).iter().zip(entries(of + 1, of)) {
+                    lines.push(format!("{x} = {x} - {} * {y};", a(of, i)));
+                }
             }
         }
     }
     for k in (0..m).rev() {
-        lines.push(format!("b[{k}] = b[{k}] * {};", a(k, k)));
         lines.extend((0..k).map(|i| format!("b[{i}] = b[{i}] - {} * b[{k}];", a(k, i))));
     }
     for i in m..n {
-        lines.extend((0..m).map(|k| format!("b[{i}] = b[{i}] - {} * b[{k}];", a(k, i))));
+        let known = (0..m).rev();
+        lines.extend(known.map(|k| format!("b[{i}] = b[{i}] - {} * b[{k}];", a(k, i))));
         lines.push("/* The difference is zero but where the row is not finite. */".to_owned());
         lines.push(refuse(format!("({} + (b[{i}] - b[{i}]))", a(i, i))));
         lines.push(format!("b[{i}] = b[{i}] * (1.0{suffix} / {});", a(i, i)));
