@@ -60,9 +60,7 @@ fn main() -> ExitCode {
     let mut trials = Vec::new();
     for (form, needs, print, missing) in forms {
         let quick = move || check(form, &Batch::new(0, &FEW), print);
-        trials.push(
-            Trial::test(format!("{form}_of_six{needs}"), quick).with_ignored_flag(missing),
-        );
+        trials.push(Trial::test(format!("{form}_of_six{needs}"), quick).with_ignored_flag(missing));
         let full = move || {
             (1..=BATCHES).try_for_each(|seed| check(form, &Batch::new(seed, &JOINTS), print))
         };
