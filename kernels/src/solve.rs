@@ -82,6 +82,13 @@ pub fn solve_fused<S: Scalar, const N: usize, const M: usize>(
     follow::<S, N, M>(a, b, margin, |x, factor, y| S::mul_add(factor, -y, x))
 }
 
+/// Whether a pivot is positive, by its inverse: the difference is not zero where either of them is infinite.
+#[allow(clippy::eq_op, reason = "infinite less infinite is no number")]
+#[inline(always)]
+fn sound<S: Scalar>(inverse: S) -> bool {
+    (inverse + (inverse - inverse)).is_positive()
+}
+
 #[allow(clippy::eq_op, reason = "it is not zero where a number is not finite")]
 #[inline(always)]
 fn follow<S: Scalar, const N: usize, const M: usize>(
@@ -102,9 +109,9 @@ fn follow<S: Scalar, const N: usize, const M: usize>(
         for k in (0..M).rev() {
             b[i] = less(b[i], a[k][i], x[k]);
         }
-        // The difference is zero but where the row is not finite.
-        stable &= (a[i][i] + (b[i] - b[i])).is_positive();
-        b[i] = b[i] * a[i][i].recip();
+        let inverse = a[i][i].recip();
+        b[i] = b[i] * inverse;
+        stable &= (inverse + (b[i] - b[i])).is_positive();
     }
     if !stable {
         return Err(Unstable);
@@ -197,18 +204,18 @@ fn two<S: Scalar, const N: usize>(
     less: &impl Fn(S, S, S) -> S,
 ) -> bool {
     let (l, pivot) = (k + 1, a[k][k]);
-    let mut stable = pivot.is_positive();
+    let mut stable = true;
     if l < N {
         let below = a[k][l];
-        let both = less(pivot * a[l][l], below, a[l][k]);
-        stable &= both.is_positive();
-        let inverse = both.recip();
+        let inverse = less(pivot * a[l][l], below, a[l][k]).recip();
+        stable = sound(inverse);
         for column in l + 1..N {
             a[column][l] = less(pivot * a[column][l], below, a[column][k]) * inverse;
         }
         b[l] = less(pivot * b[l], below, b[k]) * inverse;
     }
     let inverse = pivot.recip();
+    stable &= sound(inverse);
     for column in l..N {
         a[column][k] = a[column][k] * inverse;
     }
@@ -241,8 +248,14 @@ mod tests {
         assert_eq!(solve::<_, 2, 2>(falls, [1.0, 0.0], f64::NAN), Err(Unstable));
         for at in [(0, 0), (0, 1), (0, 2), (1, 0), (1, 1), (1, 2), (2, 2)] {
             let mut a = [[4.0, 1.0, 0.5], [1.0, 4.0, 0.5], [0.0, 0.0, 4.0]];
-            a[at.0][at.1] = f64::NAN;
-            assert_eq!(solve::<_, 3, 2>(a, [1.0; 3], 1.0), Err(Unstable), "{at:?}");
+            for x in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+                a[at.0][at.1] = x;
+                assert_eq!(solve::<_, 3, 2>(a, [1.0; 3], 1.0), Err(Unstable), "{at:?} {x}");
+            }
+        }
+        // Pivots whose product, or whose inverse, is infinite.
+        for x in [1e30_f32, 1e-30, 1e-39] {
+            assert_eq!(solve::<_, 2, 2>([[x, 0.0], [0.0, x]], [1.0; 2], 1.0), Err(Unstable));
         }
         assert_eq!(solve::<_, 3, 2>([[1.0; 3]; 3], [1.0, 1.0, f64::INFINITY], 1.0), Err(Unstable));
         assert_eq!(margin(&[1.0, 2.0, 2.0, 0.0, 0.0, 4.0], [8.0, 8.0]), 1.0 - 9.0 / 64.0 - 0.25);
@@ -275,12 +288,14 @@ mod tests {
                 }
             }
             for k in 0..N {
-                let mut buckled = a;
-                buckled[k][k] = -1e3;
-                assert_eq!(all(buckled, b), Err(Unstable));
-                // By the pivots alone.
-                assert_eq!(solve::<_, N, N>(buckled, b, 1.0), Err(Unstable), "{N}: {k}");
-                assert_eq!(solve_fused::<_, N, N>(buckled, b, 1.0), Err(Unstable), "{N}: {k}");
+                for x in [-1e3, f64::INFINITY] {
+                    let mut buckled = a;
+                    buckled[k][k] = x;
+                    assert_eq!(all(buckled, b), Err(Unstable));
+                    // By the pivots alone.
+                    assert_eq!(solve::<_, N, N>(buckled, b, 1.0), Err(Unstable), "{N}: {k}");
+                    assert_eq!(solve_fused::<_, N, N>(buckled, b, 1.0), Err(Unstable), "{N}: {k}");
+                }
             }
         }
         check::<1>();

@@ -97,7 +97,8 @@ pub(super) fn solve(out: &mut Lines, (n, m): (usize, usize), name: &str, languag
         "
 /* Solves a * x = b by elimination without pivoting, two unknowns at a time; a is column-major, x takes
  * the place of b. Where the symmetric part of a is positive definite, every pivot is positive; a
- * positive margin says that it is.{more} */
+ * positive margin says that it is. What is tested is a pivot's inverse, and a difference that is not
+ * zero where a number is not finite.{more} */
 {local} {name}_status_t {function}({real} a[{size}], {real} b[{n}], {real} margin)
 {{
     {name}_status_t status = {upper}_OK;
@@ -132,18 +133,19 @@ const LOOPED: &str = "    for (k = 0U; k < LEADING; k += 2U)
     {
         const unsigned int l = k + 1U;
         const REAL pivot = a[(k * ROWS) + k];
+        const REAL over = ONE / pivot;
 
-        if (!(pivot > ZERO))
+        if (!((over + (over - over)) > ZERO))
         {
             status = REFUSED;
         }
         if (l < LEADING)
         {
             const REAL below = a[(k * ROWS) + l];
-            const REAL both = pivot * a[(l * ROWS) + l] - below * a[(l * ROWS) + k];
-            const REAL inverse = ONE / both;
+            const REAL inverse =
+                ONE / (pivot * a[(l * ROWS) + l] - below * a[(l * ROWS) + k]);
 
-            if (!(both > ZERO))
+            if (!((inverse + (inverse - inverse)) > ZERO))
             {
                 status = REFUSED;
             }
@@ -154,12 +156,11 @@ const LOOPED: &str = "    for (k = 0U; k < LEADING; k += 2U)
             }
             b[l] = (pivot * b[l] - below * b[k]) * inverse;
         }
-        a[(k * ROWS) + k] = ONE / pivot;
         for (column = l; column < LEADING; column++)
         {
-            a[(column * ROWS) + k] = a[(column * ROWS) + k] * a[(k * ROWS) + k];
+            a[(column * ROWS) + k] = a[(column * ROWS) + k] * over;
         }
-        b[k] = b[k] * a[(k * ROWS) + k];
+        b[k] = b[k] * over;
         for (i = l + 1U; i < LEADING; i++)
         {
             for (column = l; column < LEADING; column++)
@@ -190,18 +191,17 @@ const LOOPED: &str = "    for (k = 0U; k < LEADING; k += 2U)
 /// The rows of the unknowns that nothing depends on.
 const FOLLOW: &str = "    for (i = LEADING; i < ROWS; i++)
     {
-        const REAL pivot = a[(i * ROWS) + i];
+        const REAL over = ONE / a[(i * ROWS) + i];
 
         for (k = LEADING; k > 0U; k--)
         {
             b[i] = b[i] - a[((k - 1U) * ROWS) + i] * b[k - 1U];
         }
-        /* The difference is zero but where the row is not finite. */
-        if (!((pivot + (b[i] - b[i])) > ZERO))
+        b[i] = b[i] * over;
+        if (!((over + (b[i] - b[i])) > ZERO))
         {
             status = REFUSED;
         }
-        b[i] = b[i] * (ONE / pivot);
     }
 ";
 
@@ -215,11 +215,11 @@ fn written_sum(n: usize) -> String {
 /// The elimination, statement by statement: the same operations as those of [`LOOPED`] and [`FOLLOW`].
 fn written_out((n, m): (usize, usize), upper: &str, language: &C) -> String {
     let a = |column: usize, row: usize| format!("a[{}]", column * n + row);
-    let (real, suffix) = (language.real(), language.suffix());
+    let suffix = language.suffix();
     let mut lines: Vec<String> = Vec::new();
-    let refuse = |unless: String| {
+    let refuse = |inverse: &str, x: &str| {
         format!(
-            "if (!({unless} > 0.0{suffix}))\n    {{\n        status = {upper}_UNSTABLE;\n    }}"
+            "if (!(({inverse} + ({x} - {x})) > 0.0{suffix}))\n    {{\n        status = {upper}_UNSTABLE;\n    }}"
         )
     };
     // Entries of a row from a column on, and the right-hand side's.
@@ -229,18 +229,18 @@ fn written_out((n, m): (usize, usize), upper: &str, language: &C) -> String {
     };
     for k in (0..m).step_by(2) {
         let (l, pivot) = (k + 1, a(k, k));
-        lines.push(refuse(pivot.clone()));
         if l < m {
-            let (below, both, inverse) = (a(k, l), format!("both{k}"), a(l, l));
-            let across = a(l, k);
-            lines.push(format!("const {real} {both} = {pivot} * {inverse} - {below} * {across};"));
-            lines.push(refuse(both.clone()));
-            lines.push(format!("{inverse} = 1.0{suffix} / {both};"));
+            let (below, inverse, across) = (a(k, l), a(l, l), a(l, k));
+            lines.push(format!(
+                "{inverse} = 1.0{suffix} / ({pivot} * {inverse} - {below} * {across});"
+            ));
+            lines.push(refuse(&inverse, &inverse));
             for (x, y) in entries(l + 1, l).iter().zip(entries(l + 1, k)) {
                 lines.push(format!("{x} = ({pivot} * {x} - {below} * {y}) * {inverse};"));
             }
         }
         lines.push(format!("{pivot} = 1.0{suffix} / {pivot};"));
+        lines.push(refuse(&pivot, &pivot));
         lines.extend(entries(l, k).iter().map(|x| format!("{x} = {x} * {pivot};")));
         for i in l + 1..m {
             for of in [k, l] {
@@ -256,9 +256,10 @@ fn written_out((n, m): (usize, usize), upper: &str, language: &C) -> String {
     for i in m..n {
         let known = (0..m).rev();
         lines.extend(known.map(|k| format!("b[{i}] = b[{i}] - {} * b[{k}];", a(k, i))));
-        lines.push("/* The difference is zero but where the row is not finite. */".to_owned());
-        lines.push(refuse(format!("({} + (b[{i}] - b[{i}]))", a(i, i))));
-        lines.push(format!("b[{i}] = b[{i}] * (1.0{suffix} / {});", a(i, i)));
+        let (inverse, x) = (a(i, i), format!("b[{i}]"));
+        lines.push(format!("{inverse} = 1.0{suffix} / {inverse};"));
+        lines.push(format!("{x} = {x} * {inverse};"));
+        lines.push(refuse(&inverse, &x));
     }
     lines.iter().map(|line| format!("    {line}\n")).collect()
 }
