@@ -1,8 +1,8 @@
 """How fast arms are in Python, in one run: a million Jacobians beside Rust's batch, round by round; the call of one pose
 beside Pinocchio's and CasADi's; and the import.
 
-    cargo build --release --example batch
-    python tools/speed.py target/release/examples/batch
+    cargo build --release -p stiffarm-bench --features dispatch --bin batch
+    python python/tools/speed.py target/release/batch
 """
 
 import statistics

@@ -1,4 +1,5 @@
 //! A million Jacobians of the KR 240-2 by Rust's batch, once for each line of the input: the milliseconds that it took.
+//! What `python/tools/speed.py` compares with.
 
 use std::error::Error;
 use std::io::stdin;
