@@ -1,6 +1,6 @@
 //! The maps of Figs. 3 and 4 and the zones of Table 1.
 
-use stiffarm_study::dexterity::{DexterityError, Map, Peak, Plane, influence, inverse_condition};
+use stiffarm_study::dexterity::{Map, Peak, Plane, influence, inverse_condition};
 
 use super::{LENGTH, kr240, near, wrench};
 
@@ -135,18 +135,4 @@ fn the_maps_of_fig_4() {
         let found = plane().map(|q| at(q).map(|i| i.nu_r)).unwrap().max().unwrap();
         near(found.value.to_degrees(), nu_r, 0.08 * nu_r);
     }
-}
-
-#[test]
-fn a_grid_needs_limits_and_a_step() {
-    let mut arm = kr240();
-    for step in [0.0, -1.0, f64::NAN, 1e-12] {
-        let grid = Plane::over_limits(&arm, &posture(), [1, 2], step);
-        assert!(matches!(grid, Err(DexterityError::Setting { .. })), "{step}");
-    }
-    assert!(Plane::over_limits(&arm, &posture(), [1, 1], 0.1).is_err());
-    assert!(Plane::over_limits(&arm, &posture(), [1, 6], 0.1).is_err());
-    arm.joints[2].limits = None;
-    let grid = Plane::over_limits(&arm, &posture(), [1, 2], 0.1);
-    assert_eq!(grid.unwrap_err(), DexterityError::Unlimited { joint: 3 });
 }
