@@ -6,7 +6,8 @@ use stiffarm_study::dexterity::{
     normalised_jacobian,
 };
 
-use super::{LENGTH, kr240, near};
+use super::{LENGTH, kr240};
+use crate::near;
 
 const POSTURE: [f64; 6] = [0.3, 1.1, -1.7, 0.6, -0.9, 2.1];
 

@@ -3,8 +3,8 @@
 
 use stiffarm_gap::identify::measured::{Status, Unknown};
 
-use super::near;
 use super::rig::{NONE, QUOTED, RIG, Rig, identified, with_tool};
+use crate::near;
 
 /// The displacements are those of the exact equilibrium, and so is the fit: K_C is no bias.
 #[test]
