@@ -6,7 +6,6 @@ use crate::exact::arithmetic::Arithmetic;
 use crate::exact::derived::derived;
 use crate::exact::forms::{Form, Forms, Truth};
 use crate::exact::print::expanded;
-use crate::exact::product::Matrix;
 use crate::exact::reader::Reader;
 use crate::file::{About, Equation, Paper};
 use crate::latex::formula::{Formula, Piece, formula};
@@ -24,12 +23,12 @@ pub fn truth(paper: &Paper, equation: &Equation) -> Result<Truth, String> {
     let mut forms = Forms::new(&setting.defined, &setting.infinite)?;
     for (name, path) in &equation.lets {
         let value = derived(&path.text, setting, paper.shared(), &forms)?;
-        forms.names.insert(name.clone(), *value.entries.first().ok_or("an empty matrix")?);
+        forms.names.insert(name.clone(), *value.get(0).ok_or("an empty matrix")?);
     }
     let written = match &equation.about {
         About::Path(path) => {
-            let Matrix { columns, entries } = derived(&path.text, setting, paper.shared(), &forms)?;
-            return forms.truth(columns, entries);
+            let derived = derived(&path.text, setting, paper.shared(), &forms)?;
+            return forms.truth(derived.ncols(), derived.transpose().as_slice().to_vec());
         }
         About::Formula(written) => written,
         About::Definition(_) | About::Relation(_) | About::Nothing => {
