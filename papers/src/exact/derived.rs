@@ -4,8 +4,9 @@
 use std::collections::BTreeMap;
 
 use super::arithmetic::Arithmetic;
-use super::forms::{Forms, Reading};
+use super::forms::Forms;
 use super::product::{Matrix, product, transport};
+use super::reading::Reading;
 use crate::latex::notation::Notation;
 use crate::latex::tree::{Angle, Tree};
 use stiffarm_codegen::derive::{Displacements, Form, Output, Program, derive_in, flexible};

@@ -4,8 +4,8 @@ use std::collections::HashMap;
 
 use super::judge::truth;
 use crate::exact::arithmetic::{Arithmetic, Real};
-use crate::exact::forms::Truth;
 use crate::exact::print::{decimal, short};
+use crate::exact::truth::Truth;
 use crate::file::{Column, Paper, Table};
 use crate::verdict::{Entry, Kind, Verdict};
 
