@@ -109,8 +109,7 @@ fn entry(paper: &Paper, ready: &[Ready<'_>], at: usize, inventory: &Inventory) -
             return entry;
         }
         (_, Err(why)) => {
-            entry.verdict = Verdict::NotJudged;
-            entry.note = Some(why.clone());
+            entry.not_judged(why.clone());
             return entry;
         }
         (_, Ok(truth)) => truth,
@@ -122,8 +121,7 @@ fn entry(paper: &Paper, ready: &[Ready<'_>], at: usize, inventory: &Inventory) -
     for (side, cells) in this.printed.sides.iter().zip(&this.tokens) {
         let columns = side.rows.first().map_or(0, Vec::len);
         if cells.len() != truth.entries.len() || columns != truth.columns {
-            entry.verdict = Verdict::NotJudged;
-            entry.note = Some(format!(
+            entry.not_judged(format!(
                 "printed are {} entries in {columns} columns, derived {} in {}",
                 cells.len(),
                 truth.entries.len(),
