@@ -114,6 +114,11 @@ impl Entry {
             ..Entry::default()
         }
     }
+
+    /// Leaves it unjudged, and says why.
+    pub(crate) fn not_judged(&mut self, why: String) {
+        (self.verdict, self.note) = (Verdict::NotJudged, Some(why));
+    }
 }
 
 /// Names and values as an object.

@@ -6,3 +6,7 @@ mod jweeg;
 mod knapczyk;
 mod ledger;
 mod lin;
+
+fn near(got: f64, want: f64, tolerance: f64) {
+    assert!((got - want).abs() <= tolerance, "{got} is not {want} ± {tolerance}");
+}

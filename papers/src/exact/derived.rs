@@ -4,8 +4,9 @@
 use std::collections::BTreeMap;
 
 use super::arithmetic::Arithmetic;
-use super::forms::{Forms, Reading};
-use super::product::{Matrix, product};
+use super::forms::Forms;
+use super::product::{Matrix, product, transport};
+use super::reading::Reading;
 use crate::latex::notation::Notation;
 use crate::latex::tree::{Angle, Tree};
 use stiffarm_codegen::derive::{Displacements, Form, Output, Program, derive_in, flexible};
@@ -87,11 +88,9 @@ impl<'p> Path<'p> {
     }
 
     /// What the path names of a matrix.
-    fn of(&self, whole: Matrix) -> Result<Matrix, String> {
-        Ok(match self.entry((whole.rows(), whole.columns))? {
-            None => whole,
-            Some(entry) => Matrix { columns: 1, entries: vec![whole.at(entry)] },
-        })
+    fn of(&self, whole: &Matrix) -> Result<Matrix, String> {
+        let entry = self.entry(whole.shape())?;
+        Ok(entry.map_or(whole.clone(), |entry| Matrix::from_element(1, 1, whole[entry])))
     }
 }
 
@@ -114,11 +113,11 @@ pub fn derived(
     let product = || product(&setting.product, shared.notation, forms);
     let whole = match path.name {
         "product" => product()?,
-        "transport" => product()?.transport(forms)?,
-        "transport_transposed" => product()?.transport(forms)?.transposed(),
+        "transport" => transport(&product()?, forms)?,
+        "transport_transposed" => transport(&product()?, forms)?.transpose(),
         name => return output(name, &path, setting, shared.robots, forms),
     };
-    path.of(whole)
+    path.of(&whole)
 }
 
 /// What of a robot's derivation a path names.
@@ -187,13 +186,10 @@ fn output(
         return Err(format!("{} angles are given for {n} joints", joints.len()));
     }
     let wrench = setting.wrench.iter().map(|tree| forms.tree(tree)).collect::<Result<_, _>>()?;
-    // The generator's columns as rows.
-    let places = (0..rows).flat_map(|r| (0..columns).map(move |c| c * rows + r));
-    let entries = places.map(|at| program.blocks[0].entries[at]).collect();
-    let mut named = path.of(Matrix { columns, entries })?;
-    let reading = Reading { joints, wrench };
-    named.entries = reading.values(forms, &program.graph, &named.entries)?;
-    Ok(named)
+    let entries = &program.blocks[0].entries[..rows * columns];
+    let named = path.of(&Matrix::from_column_slice(rows, columns, entries))?;
+    let values = Reading { joints, wrench }.values(forms, &program.graph, named.as_slice())?;
+    Ok(Matrix::from_vec(named.nrows(), named.ncols(), values))
 }
 
 #[cfg(test)]
@@ -223,13 +219,13 @@ mod tests {
             ("product[2][4]", "L_1\\sin\\theta_1"),
         ] {
             let forms = Forms::new(&[], &[]).unwrap();
-            let entry = of(path, &forms).unwrap().entries[0];
+            let entry = of(path, &forms).unwrap()[0];
             let wanted = forms.tree(&parse(text, &Notation::default()).unwrap()).unwrap();
             let apart = forms.sub(entry, wanted).unwrap();
             let truth = forms.truth(1, vec![apart]).unwrap();
             assert!(truth.form(truth.entries[0]).is_zero(), "{path}");
         }
-        assert_eq!(of("pose", &Forms::new(&[], &[]).unwrap()).unwrap().rows(), 3);
+        assert_eq!(of("pose", &Forms::new(&[], &[]).unwrap()).unwrap().nrows(), 3);
     }
 
     #[test]

@@ -8,3 +8,5 @@ pub mod polynomial;
 pub(crate) mod print;
 pub mod product;
 pub mod reader;
+pub mod reading;
+pub mod truth;

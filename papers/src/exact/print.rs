@@ -5,8 +5,8 @@ use std::collections::HashMap;
 use num_rational::Ratio;
 use num_traits::{One, Signed};
 
-use super::forms::Form;
 use super::polynomial::{Expanded, Polynomial, Variable};
+use super::truth::Form;
 use crate::latex::lexer::Lexeme;
 use crate::latex::name::key;
 use crate::latex::notation::Notation;
@@ -133,10 +133,8 @@ pub fn decimal(text: &str) -> Option<(f64, f64)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::arithmetic::Arithmetic;
-    use crate::exact::forms::Forms;
+    use crate::exact::truth::Truth;
     use crate::latex::lexer::lex;
-    use crate::latex::parser::parse;
 
     #[test]
     fn what_is_multiplied_out_is_written_in_the_papers_letters() {
@@ -145,10 +143,7 @@ mod tests {
         let text = "\\lambda_6 s_1/2 - \\cos\\theta_2 a^2";
         let mut inventory = Inventory::default();
         inventory.add(&lex(text, &notation).unwrap());
-        let tree = parse(text, &notation).unwrap();
-        let forms = Forms::new(&[], &[]).unwrap();
-        let value = forms.tree(&tree).unwrap();
-        let truth = forms.truth(1, vec![value]).unwrap();
+        let truth = Truth::written(text, &notation);
         assert_eq!(
             expanded(truth.form(truth.entries[0]), &notation, &inventory).unwrap(),
             "-a^2 \\cos \\theta_2 + \\frac{\\lambda_6 s_1}{2}"

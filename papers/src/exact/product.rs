@@ -1,5 +1,6 @@
 //! Products of elementary transforms, written in a data file: `["Rz(\\theta_1)", "Tx(a_1)"]`.
 
+use nalgebra::DMatrix;
 use num_rational::Ratio;
 use stiffarm_codegen::expr::Expr;
 
@@ -9,68 +10,42 @@ use crate::latex::notation::Notation;
 use crate::latex::parser::{collect, parse};
 use crate::latex::tree::{Angle, Function, Tree};
 
-/// A matrix of formulas, row by row.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Matrix {
-    /// Number of columns.
-    pub columns: usize,
-    /// The entries, row by row.
-    pub entries: Vec<Expr>,
+/// A matrix of formulas.
+pub type Matrix = DMatrix<Expr>;
+
+fn identity() -> Matrix {
+    Matrix::from_fn(4, 4, |r, c| if r == c { Expr::ONE } else { Expr::ZERO })
 }
 
-impl Matrix {
-    /// An entry; both indices from 0, and within the matrix.
-    pub(super) fn at(&self, (row, column): (usize, usize)) -> Expr {
-        self.entries[row * self.columns + column]
-    }
-
-    /// Number of rows.
-    pub fn rows(&self) -> usize {
-        self.entries.len().checked_div(self.columns).unwrap_or(0)
-    }
-
-    fn identity(n: usize) -> Self {
-        let one = |k: usize| if k.is_multiple_of(n + 1) { Expr::ONE } else { Expr::ZERO };
-        Matrix { columns: n, entries: (0..n * n).map(one).collect() }
-    }
-
-    /// Rows for columns.
-    pub fn transposed(&self) -> Matrix {
-        let places = (0..self.columns).flat_map(|c| (0..self.rows()).map(move |r| (r, c)));
-        Matrix { columns: self.rows(), entries: places.map(|place| self.at(place)).collect() }
-    }
-
-    fn times(&self, other: &Matrix, forms: &Forms) -> Result<Matrix, &'static str> {
-        let entry = |row, column| {
-            (0..self.columns).try_fold(Expr::ZERO, |sum, k| {
-                forms.add(sum, forms.mul(self.at((row, k)), other.at((k, column)))?)
-            })
-        };
-        let places = (0..self.rows()).flat_map(|r| (0..other.columns).map(move |c| (r, c)));
-        let entries = places.map(|(r, c)| entry(r, c)).collect::<Result<_, _>>()?;
-        Ok(Matrix { columns: other.columns, entries })
-    }
-
-    /// Of a 4×4 transform the 6×6 matrix that carries a wrench (force, moment) given in this frame at
-    /// its origin to the base frame at its origin: [R 0; p× R R].
-    ///
-    /// # Errors
-    /// Never for what has a value.
-    pub fn transport(&self, forms: &Forms) -> Result<Matrix, &'static str> {
-        let mut out = Matrix { columns: 6, entries: vec![Expr::ZERO; 36] };
-        for r in 0..3 {
-            let (i, j) = ((r + 1) % 3, (r + 2) % 3);
-            for c in 0..3 {
-                out.entries[6 * r + c] = self.at((r, c));
-                out.entries[6 * (r + 3) + c + 3] = self.at((r, c));
-                // Row r of p × column c of R.
-                let left = forms.mul(self.at((i, 3)), self.at((j, c)))?;
-                let right = forms.mul(self.at((j, 3)), self.at((i, c)))?;
-                out.entries[6 * (r + 3) + c] = forms.sub(left, right)?;
-            }
+fn times(a: &Matrix, b: &Matrix, forms: &Forms) -> Result<Matrix, &'static str> {
+    let mut out = Matrix::from_element(a.nrows(), b.ncols(), Expr::ZERO);
+    for (r, c) in (0..a.nrows()).flat_map(|r| (0..b.ncols()).map(move |c| (r, c))) {
+        for k in 0..a.ncols() {
+            out[(r, c)] = forms.add(out[(r, c)], forms.mul(a[(r, k)], b[(k, c)])?)?;
         }
-        Ok(out)
     }
+    Ok(out)
+}
+
+/// Of a 4×4 transform the 6×6 matrix that carries a wrench (force, moment) given in this frame at
+/// its origin to the base frame at its origin: [R 0; p× R R].
+///
+/// # Errors
+/// Never for what has a value.
+pub fn transport(m: &Matrix, forms: &Forms) -> Result<Matrix, &'static str> {
+    let mut out = Matrix::from_element(6, 6, Expr::ZERO);
+    for r in 0..3 {
+        let (i, j) = ((r + 1) % 3, (r + 2) % 3);
+        for c in 0..3 {
+            out[(r, c)] = m[(r, c)];
+            out[(r + 3, c + 3)] = m[(r, c)];
+            // Row r of p × column c of R.
+            let left = forms.mul(m[(i, 3)], m[(j, c)])?;
+            let right = forms.mul(m[(j, 3)], m[(i, c)])?;
+            out[(r + 3, c)] = forms.sub(left, right)?;
+        }
+    }
+    Ok(out)
 }
 
 /// The 4×4 product of elements.
@@ -78,10 +53,10 @@ impl Matrix {
 /// # Errors
 /// What is wrong with which element.
 pub fn product(elements: &[String], notation: &Notation, forms: &Forms) -> Result<Matrix, String> {
-    let mut out = Matrix::identity(4);
+    let mut out = identity();
     for text in elements {
         let element = element(text, notation, forms).map_err(|why| format!("`{text}`: {why}"))?;
-        out = out.times(&element, forms)?;
+        out = times(&out, &element, forms)?;
     }
     Ok(out)
 }
@@ -98,9 +73,9 @@ fn element(text: &str, notation: &Notation, forms: &Forms) -> Result<Matrix, Str
         .collect::<Result<_, _>>()?;
     let argument = |k: usize| trees.get(k).ok_or_else(|| format!("argument {} is missing", k + 1));
     let value = |k: usize| Ok::<Expr, String>(forms.tree(argument(k)?)?);
-    let mut m = Matrix::identity(4);
+    let mut m = identity();
     match (kind.trim(), kind.trim().get(1..).and_then(|axis| "xyz".find(axis))) {
-        ("Tx" | "Ty" | "Tz", Some(axis)) => m.entries[4 * axis + 3] = value(0)?,
+        ("Tx" | "Ty" | "Tz", Some(axis)) => m[(axis, 3)] = value(0)?,
         ("Rx" | "Ry" | "Rz", Some(axis)) => {
             let mut angle = Angle::default();
             if !collect(argument(0)?, Ratio::from(1), &mut angle) {
@@ -109,19 +84,19 @@ fn element(text: &str, notation: &Notation, forms: &Forms) -> Result<Matrix, Str
             let (s, c) = (forms.trig(Function::Sin, &angle)?, forms.trig(Function::Cos, &angle)?);
             let (i, j) = ((axis + 1) % 3, (axis + 2) % 3);
             for (row, column, entry) in [(i, i, c), (j, j, c), (j, i, s), (i, j, -s)] {
-                m.entries[4 * row + column] = entry;
+                m[(row, column)] = entry;
             }
         }
         ("small", _) => {
             for k in 0..3 {
                 let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-                m.entries[4 * j + i] = value(k)?;
-                m.entries[4 * i + j] = -value(k)?;
+                m[(j, i)] = value(k)?;
+                m[(i, j)] = -value(k)?;
             }
         }
         ("frame", _) => {
             for k in 0..12 {
-                m.entries[4 * (k % 3) + k / 3] = value(k)?;
+                m[(k % 3, k / 3)] = value(k)?;
             }
         }
         _ => return Err(format!("an element is {KINDS}")),
@@ -159,7 +134,7 @@ mod tests {
     }
 
     fn zero(forms: Forms, matrix: Matrix) -> Vec<bool> {
-        let truth = forms.truth(matrix.columns, matrix.entries).unwrap();
+        let truth = forms.truth(matrix.ncols(), matrix.transpose().as_slice().to_vec()).unwrap();
         truth.entries.iter().map(|entry| truth.form(*entry).is_zero()).collect()
     }
 
@@ -168,23 +143,22 @@ mod tests {
         let forms = Forms::new(&[], &[]).unwrap();
         let turns = ["Rz(\\theta_1)", "Rx(a+b)", "Rx(-a-b)", "Rz(-\\theta_1)"];
         let m = of(&forms, &turns).unwrap();
-        let one = Matrix::identity(4).entries;
-        let apart = m.entries.iter().zip(one).map(|(a, b)| forms.sub(*a, b).unwrap()).collect();
-        assert!(zero(forms, Matrix { columns: 4, entries: apart }).into_iter().all(|zero| zero));
+        let apart = m.zip_map(&identity(), |a, b| forms.sub(a, b).unwrap());
+        assert!(zero(forms, apart).into_iter().all(|zero| zero));
         let forms = Forms::new(&[], &[]).unwrap();
         let m = of(&forms, &["small(x,y,z)"]).unwrap();
         let [x, y, z] = ["x", "y", "z"].map(|name| forms.named(name).unwrap());
         let (o, one) = (Expr::ZERO, Expr::ONE);
-        assert_eq!(m.entries, [one, -z, y, o, z, one, -x, o, -y, x, one, o, o, o, o, one]);
+        assert_eq!(m.as_slice(), [one, z, -y, o, -z, one, x, o, y, -x, one, o, o, o, o, one]);
     }
 
     #[test]
     fn wrenches_are_carried_with_their_lever() {
         let forms = Forms::new(&[], &[]).unwrap();
-        let m = of(&forms, &["Tx(L)"]).unwrap().transport(&forms).unwrap();
+        let m = transport(&of(&forms, &["Tx(L)"]).unwrap(), &forms).unwrap();
         let lever = forms.named("L").unwrap();
         // A force along y at L along x turns about z.
-        assert_eq!((m.at((5, 1)), m.at((4, 2))), (lever, -lever));
+        assert_eq!((m[(5, 1)], m[(4, 2)]), (lever, -lever));
     }
 
     #[test]

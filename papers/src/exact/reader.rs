@@ -2,7 +2,7 @@
 
 use super::arithmetic::{Arithmetic, Real};
 use super::field::Modular;
-use super::forms::{Form, Truth};
+use super::truth::{Form, Truth};
 use crate::latex::lexer::Token;
 use crate::latex::notation::Notation;
 use crate::latex::parser::parse_tokens;

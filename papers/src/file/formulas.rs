@@ -1,5 +1,7 @@
 //! Symbols and formulas of a data file.
 
+use std::collections::HashMap;
+
 use super::notes::{Named, Notes, Text};
 use crate::latex::formula::Piece;
 use crate::latex::lexer::{Lexeme, lex};
@@ -21,6 +23,16 @@ pub(super) fn symbol(w: &Piece, notation: &Notation, notes: &mut Notes<'_>) -> O
         Err(mistake) => notes.mistakes.push(mistake.clone().moved(w.at)),
     }
     None
+}
+
+/// Values of symbols.
+pub(super) fn values(
+    written: &Named<f64>,
+    notation: &Notation,
+    notes: &mut Notes<'_>,
+) -> HashMap<String, f64> {
+    let mut named = |name| symbol(&notes.piece(name), notation, notes);
+    written.iter().filter_map(|(name, value)| Some((named(name)?, *value))).collect()
 }
 
 /// A formula of the file.

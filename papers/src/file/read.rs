@@ -2,7 +2,7 @@
 
 use ::serde::Deserialize;
 
-use super::formulas::{definitions, symbol};
+use super::formulas::{definitions, values};
 use super::notes::{Named, Notes, Text, plain};
 use super::{Paper, equation, table};
 use crate::latex::mistake::{Mistake, file_error};
@@ -96,10 +96,7 @@ fn paper(written: Written, notes: &mut Notes<'_>) -> Paper {
             })),
         }
     }
-    for (name, value) in &written.values {
-        let name = symbol(&notes.piece(name), &notation, notes);
-        out.values.extend(name.map(|name| (name, *value)));
-    }
+    out.values = values(&written.values, &notation, notes);
     Paper { notation, ..out }
 }
 

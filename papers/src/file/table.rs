@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use ::serde::Deserialize;
 
-use super::formulas::{symbol, tree};
+use super::formulas::{symbol, tree, values};
 use super::notes::{Named, Notes, Text, plain};
 use crate::latex::formula::Piece;
 use crate::latex::notation::Notation;
@@ -115,10 +115,7 @@ pub(super) fn read(written: Written, notation: &Notation, notes: &mut Notes<'_>)
             note: plain(column.note),
         });
     }
-    for (name, value) in &written.values {
-        let name = symbol(&notes.piece(name), notation, notes);
-        out.values.extend(name.map(|name| (name, *value)));
-    }
+    out.values = values(&written.values, notation, notes);
     for row in out.rows.iter().filter(|row| row.len() != out.columns.len()) {
         let at = row.first().map_or(written.number.span(), Piece::place);
         let message = format!("this row has {} cells for {} columns", row.len(), out.columns.len());

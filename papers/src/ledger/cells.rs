@@ -4,8 +4,8 @@ use std::collections::HashMap;
 
 use super::judge::truth;
 use crate::exact::arithmetic::{Arithmetic, Real};
-use crate::exact::forms::Truth;
 use crate::exact::print::{decimal, short};
+use crate::exact::truth::Truth;
 use crate::file::{Column, Paper, Table};
 use crate::verdict::{Entry, Kind, Verdict};
 
@@ -114,17 +114,11 @@ fn judge(entry: &mut Entry, column: &Column, printed: &str, value: Result<Option
             entry.note = why.or_else(|| Some("the method gives no value for this cell".into()));
             return;
         }
-        Err(why) => {
-            entry.verdict = Verdict::NotJudged;
-            entry.note = Some(why);
-            return;
-        }
+        Err(why) => return entry.not_judged(why),
     };
     let bound = printed.trim().strip_prefix('≤');
     let Some((value, unit)) = decimal(bound.unwrap_or(printed)) else {
-        entry.verdict = Verdict::NotJudged;
-        entry.note = Some(format!("`{printed}` is no number"));
-        return;
+        return entry.not_judged(format!("`{printed}` is no number"));
     };
     let off = (computed - value).abs() / unit;
     // Half a unit is rounding; a hair more is the rounding of this comparison.

@@ -4,10 +4,10 @@ use super::labels::{Member, shifted};
 use super::witness::witness;
 use crate::exact::arithmetic::Arithmetic;
 use crate::exact::derived::derived;
-use crate::exact::forms::{Form, Forms, Truth};
+use crate::exact::forms::Forms;
 use crate::exact::print::expanded;
-use crate::exact::product::Matrix;
 use crate::exact::reader::Reader;
+use crate::exact::truth::{Form, Truth};
 use crate::file::{About, Equation, Paper};
 use crate::latex::formula::{Formula, Piece, formula};
 use crate::latex::lexer::{Token, lex};
@@ -24,12 +24,12 @@ pub fn truth(paper: &Paper, equation: &Equation) -> Result<Truth, String> {
     let mut forms = Forms::new(&setting.defined, &setting.infinite)?;
     for (name, path) in &equation.lets {
         let value = derived(&path.text, setting, paper.shared(), &forms)?;
-        forms.names.insert(name.clone(), *value.entries.first().ok_or("an empty matrix")?);
+        forms.names.insert(name.clone(), *value.get(0).ok_or("an empty matrix")?);
     }
     let written = match &equation.about {
         About::Path(path) => {
-            let Matrix { columns, entries } = derived(&path.text, setting, paper.shared(), &forms)?;
-            return forms.truth(columns, entries);
+            let derived = derived(&path.text, setting, paper.shared(), &forms)?;
+            return forms.truth(derived.ncols(), derived.transpose().as_slice().to_vec());
         }
         About::Formula(written) => written,
         About::Definition(_) | About::Relation(_) | About::Nothing => {
@@ -109,8 +109,7 @@ fn entry(paper: &Paper, ready: &[Ready<'_>], at: usize, inventory: &Inventory) -
             return entry;
         }
         (_, Err(why)) => {
-            entry.verdict = Verdict::NotJudged;
-            entry.note = Some(why.clone());
+            entry.not_judged(why.clone());
             return entry;
         }
         (_, Ok(truth)) => truth,
@@ -122,8 +121,7 @@ fn entry(paper: &Paper, ready: &[Ready<'_>], at: usize, inventory: &Inventory) -
     for (side, cells) in this.printed.sides.iter().zip(&this.tokens) {
         let columns = side.rows.first().map_or(0, Vec::len);
         if cells.len() != truth.entries.len() || columns != truth.columns {
-            entry.verdict = Verdict::NotJudged;
-            entry.note = Some(format!(
+            entry.not_judged(format!(
                 "printed are {} entries in {columns} columns, derived {} in {}",
                 cells.len(),
                 truth.entries.len(),

@@ -1,8 +1,8 @@
 //! Labels that have slipped: the right formula stands in the same group, under another label, run
 //! together with its neighbour, or in two halves.
 
-use crate::exact::forms::Form;
 use crate::exact::reader::Reader;
+use crate::exact::truth::Form;
 use crate::latex::lexer::Token;
 use crate::mend::written;
 

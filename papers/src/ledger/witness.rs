@@ -3,7 +3,7 @@
 use std::collections::{BTreeSet, HashMap};
 
 use crate::exact::arithmetic::{Arithmetic, Real};
-use crate::exact::forms::{Form, Truth};
+use crate::exact::truth::{Form, Truth};
 use crate::latex::tree::Tree;
 use crate::verdict::Witness;
 
@@ -65,16 +65,13 @@ pub fn witness(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::forms::Forms;
     use crate::latex::notation::Notation;
     use crate::latex::parser::parse;
 
     #[test]
     fn a_witness_tells_two_formulas_apart() {
         let read = |text: &str| parse(text, &Notation::default()).unwrap();
-        let forms = Forms::new(&[], &[]).unwrap();
-        let derived = forms.tree(&read("a \\cos\\theta_1")).unwrap();
-        let truth = &forms.truth(1, vec![derived]).unwrap();
+        let truth = &Truth::written("a \\cos\\theta_1", &Notation::default());
         let derived = truth.form(truth.entries[0]);
         let given = HashMap::from([("a".to_owned(), 2.0)]);
         let found = witness(&read("a \\sin\\theta_1"), derived, truth, &given).unwrap();

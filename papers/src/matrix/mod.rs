@@ -8,7 +8,7 @@ mod transform;
 
 use std::collections::HashMap;
 
-use dense::{Dense, is_scalar, sum};
+use dense::{Dense, sum};
 use evaluate::Point;
 use source::{At, Sources};
 
@@ -91,8 +91,7 @@ pub(super) fn judge(
     entry.source = relation.words();
     let sources = Sources::read(&relation.matrices, setting, shared, given);
     if let Err(why) = sources.and_then(|sources| verdict(entry, latex, relation, sources)) {
-        entry.verdict = Verdict::NotJudged;
-        entry.note = Some(why);
+        entry.not_judged(why);
     }
 }
 
@@ -210,13 +209,10 @@ impl Question<'_> {
 }
 
 fn same(a: &Dense, b: &Dense) -> bool {
-    // A lone zero stands for zeros of any shape.
-    let zero = |m: &Dense| is_scalar(m) && m[(0, 0)] == 0.0;
     let size = a.amax().max(b.amax()).max(1.0);
-    if zero(a) || zero(b) {
-        return a.amax().max(b.amax()) <= TOLERANCE * size;
-    }
-    sum(a, b, -1.0).is_ok_and(|difference| difference.amax() <= TOLERANCE * size)
+    // Either may be a lone zero, which stands for zeros of any shape.
+    let difference = sum(a, b, -1.0).or_else(|_| sum(b, a, -1.0));
+    difference.is_ok_and(|difference| difference.amax() <= TOLERANCE * size)
 }
 
 #[cfg(test)]

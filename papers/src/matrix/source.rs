@@ -7,6 +7,7 @@ use super::dense::{self, Dense};
 use super::evaluate::Symbols;
 use super::transform::transform;
 use crate::exact::derived::{Path, Setting, Shared};
+use crate::exact::field::Modular;
 use crate::latex::formula::Piece;
 use crate::latex::lexer::{Lexeme, Token};
 use crate::latex::notation::Notation;
@@ -189,16 +190,9 @@ impl At<'_> {
         (0..joints).map(|k| 1.3 * self.random("q", k)).collect()
     }
 
-    /// A number from −1 to 1 that follows from the point, a name and a count (FNV-1a, then a mixing
-    /// step of SplitMix64).
+    /// A number from −1 to 1 that follows from the point, a name and a count.
     fn random(&self, name: &str, k: usize) -> f64 {
-        let bytes = name.bytes().chain(k.to_le_bytes()).chain(self.1.to_le_bytes());
-        let mut hash = bytes.fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
-            (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3)
-        });
-        hash = (hash ^ (hash >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        hash = (hash ^ (hash >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        2.0 * ((hash ^ (hash >> 31)) >> 11) as f64 / (1u64 << 53) as f64 - 1.0
+        2.0 * Modular::point(self.1).part(&format!("{name} {k}")) - 1.0
     }
 
     /// A value above zero.

@@ -4,8 +4,9 @@ use nalgebra::Vector3;
 
 use super::dense::Dense;
 use crate::exact::arithmetic::Real;
+use crate::exact::field::Modular;
 use crate::exact::forms::Forms;
-use crate::exact::product::{Matrix, product};
+use crate::exact::product::{product, transport};
 use crate::latex::notation::Notation;
 use crate::latex::tree::Tree;
 
@@ -21,15 +22,11 @@ pub(super) fn transform(
     let forms = Forms::new(defined, &[])?;
     let mut whole = product(elements, notation, &forms)?;
     if part == "transport" {
-        whole = whole.transport(&forms)?;
+        whole = transport(&whole, &forms)?;
     }
-    let value = |name: &str| {
-        let sum =
-            name.bytes().fold(7u32, |sum, byte| sum.wrapping_mul(31).wrapping_add(byte.into()));
-        Some(0.3 + f64::from(sum % 1000) / 700.0)
-    };
-    let (rows, Matrix { columns, entries }) = (whole.rows(), whole);
-    let truth = forms.truth(columns, entries)?;
+    let value = |name: &str| Some(0.3 + 1.4 * Modular::point(0).part(name));
+    let (rows, columns) = whole.shape();
+    let truth = forms.truth(columns, whole.transpose().as_slice().to_vec())?;
     let each = truth.entries.iter().map(|entry| truth.form(*entry).value(&Real(value)));
     let whole = Dense::from_row_slice(rows, columns, &each.collect::<Result<Vec<f64>, _>>()?);
     let p = Vector3::from_fn(|k, _| whole[(k, 3)]);

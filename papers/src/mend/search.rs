@@ -8,8 +8,8 @@ use super::edit::{Edit, Slip, apply};
 use super::slips::{Inventory, slips};
 use crate::exact::arithmetic::Arithmetic;
 use crate::exact::field::{Modular, minus};
-use crate::exact::forms::Form;
 use crate::exact::reader::Reader;
+use crate::exact::truth::Form;
 use crate::latex::lexer::{Lexeme, Token};
 use crate::latex::name::Name;
 

@@ -2,7 +2,7 @@
 //! call them by.
 
 pub mod bicchi;
-mod dumas;
+pub mod dumas;
 pub mod jweeg;
 pub mod transport;
 

@@ -2,11 +2,12 @@
 
 use nalgebra::{DMatrix, Vector6};
 use stiffarm_study::dexterity::{
-    DexterityError, Search, best_length, characteristic_length, condition_number, influence,
-    inverse_condition, normalised_jacobian,
+    Search, best_length, characteristic_length, condition_number, influence, inverse_condition,
+    normalised_jacobian,
 };
 
-use super::{LENGTH, kr240, near};
+use super::{LENGTH, kr240};
+use crate::near;
 
 const POSTURE: [f64; 6] = [0.3, 1.1, -1.7, 0.6, -0.9, 2.1];
 
@@ -106,24 +107,4 @@ fn the_limits_decide_the_third_digit() {
     let found = characteristic_length(&arm, free).unwrap();
     near(found.length, 0.68260, 1e-5);
     near(found.inverse_condition, 0.79903, 1e-5);
-}
-
-#[test]
-fn what_cannot_be_searched_is_refused() {
-    let mut arm = kr240();
-    let none = Search { starts: 0, ..Search::default() };
-    assert!(matches!(characteristic_length(&arm, none), Err(DexterityError::Setting { .. })));
-    arm.joints[2].motion = stiffarm_kernels::Motion::Prismatic;
-    arm.joints[2].limits = None;
-    let error = characteristic_length(&arm, Search::default()).unwrap_err();
-    assert_eq!(error, DexterityError::Unlimited { joint: 3 });
-    arm.joints.pop();
-    let error = characteristic_length(&arm, Search::default()).unwrap_err();
-    assert_eq!(error, DexterityError::TooFewJoints { found: 5 });
-    for length in [0.0, -1.0, f64::NAN] {
-        assert!(matches!(
-            inverse_condition(&kr240(), &POSTURE, length),
-            Err(DexterityError::Length { .. })
-        ));
-    }
 }

@@ -1,12 +1,10 @@
 //! Eqs. 20 to 26, Fig. 7, Table 2 and the validation of section 5.3, by the identification that a
 //! measurement file has.
 
-use nalgebra::Matrix6;
 use stiffarm_gap::identify::measured::{Status, Unknown};
-use stiffarm_study::dexterity::design::{Plan, Purpose, design};
 
-use super::near;
 use super::rig::{NONE, QUOTED, RIG, Rig, identified, with_tool};
+use crate::near;
 
 /// The displacements are those of the exact equilibrium, and so is the fit: K_C is no bias.
 #[test]
@@ -63,37 +61,4 @@ fn tests_that_were_not_used_are_predicted() {
     let gap = identified(&arm, &RIG.campaign(&arm, 23, QUOTED, 8), QUOTED).gap;
     let (left, before) = (gap.held_out.position_rms, gap.before.position_rms);
     assert!(left < 0.1 * before && left < 1e-4, "{left} of {before}");
-}
-
-/// The deviations that a plan promises are those of `(BᵀB)⁻¹` (eqs. 21 to 26), and better than random
-/// ones.
-#[test]
-fn a_plan_says_what_the_identification_will() {
-    let mut arm = super::kr240();
-    arm.tool = nalgebra::Isometry3::translation(0.1, 0.0, 0.15);
-    let pull = |x: f64, y: f64, z: f64| nalgebra::Vector6::new(x, y, z, 0.0, 0.0, 0.0);
-    let plan = Plan {
-        bench: Vec::new(),
-        plates: Vec::new(),
-        count: 8,
-        purpose: Purpose::Identify,
-        along: vec![],
-        loads: vec![pull(0.0, 0.0, -1000.0), pull(1000.0, 0.0, 0.0), pull(0.0, -1000.0, 0.0)],
-        noise_position: 3e-5,
-        noise_rotation: None,
-        seed: 1,
-    };
-    let found = design(&arm, &plan, &|_| {}).unwrap();
-    assert!(found.tests.len() == 8 && found.efficiency > 1.5, "{}", found.efficiency);
-    let information = |(q, wrench): (&[f64], _)| -> Matrix6<f64> {
-        let regressor = arm.compliance_regressor(q, wrench);
-        let b = regressor.fixed_view::<3, 6>(0, 0) / (3e-5 * 2f64.sqrt());
-        b.transpose() * b
-    };
-    let each = found.tests.iter().map(|test| information((&test.q, &test.wrench)));
-    let covariance = each.sum::<Matrix6<f64>>().try_inverse().unwrap();
-    for (k, expected) in found.expected.iter().enumerate() {
-        // What is assumed to be known before changes a part in a million.
-        near(covariance[(k, k)].sqrt() / expected.compliance.unwrap(), 1.0, 1e-4);
-    }
 }

@@ -5,8 +5,8 @@ use stiffarm_gap::identify::measured::Unknown;
 use stiffarm_gap::rng::{Rng, Stream};
 use stiffarm_kernels::generic::{Arm, Beam};
 
-use super::near;
 use super::rig::{NONE, RIG, identified, with_tool};
+use crate::near;
 
 /// EI of links 2 and 3, N·m², with which 300 tests have largest shares of 21 % and 4.8 %.
 const EI: [f64; 2] = [3.317e7, 4.428e7];

@@ -9,7 +9,6 @@ mod links;
 mod rig;
 mod zones;
 
-use nalgebra::Vector6;
 use stiffarm_kernels::generic::Arm;
 
 /// L of the paper, m.
@@ -18,13 +17,4 @@ const LENGTH: f64 = 0.682;
 /// The KR 240-2 with the stiffnesses of Table 2.
 fn kr240() -> Arm {
     stiffarm_papers::methods::arm("kuka_kr240").unwrap()
-}
-
-/// The wrench of Fig. 4.
-fn wrench() -> Vector6<f64> {
-    Vector6::new(0.0, 0.0, -2000.0, 200.0, 200.0, 0.0)
-}
-
-fn near(got: f64, want: f64, tolerance: f64) {
-    assert!((got - want).abs() <= tolerance, "{got} is not {want} ± {tolerance}");
 }

@@ -5,7 +5,7 @@
 
 use std::fmt::Write as _;
 
-use nalgebra::{Isometry3, Matrix3, Point3, Rotation3, UnitQuaternion, Vector3, Vector6};
+use nalgebra::{Isometry3, Point3, Rotation3, UnitQuaternion, Vector3, Vector6};
 use stiffarm_gap::identify::measured::{Answer, Question, identify_measured};
 use stiffarm_gap::measurement::{Layout, Measurements};
 use stiffarm_gap::rng::{Rng, Stream};
@@ -93,14 +93,11 @@ impl Rig {
     }
 }
 
-/// `δp = p' − p` of the first point and `δR = R' Rᵀ` of the frames by Gram and Schmidt: x from the first
-/// point to the second, y toward the third (eqs. 27 to 30).
+/// `δp = p' − p` of the first point and `δR = R' Rᵀ` of the frames: one axis from the first point to the
+/// second, another toward the third (eqs. 27 to 30; δR is the same whichever is called x).
 fn displacement(before: [Vector3<f64>; 3], after: [Vector3<f64>; 3]) -> Vector6<f64> {
     let frame = |[origin, along, toward]: [Vector3<f64>; 3]| {
-        let x = (along - origin).normalize();
-        let y = toward - origin - x * x.dot(&(toward - origin));
-        let y = y.normalize();
-        Rotation3::from_matrix_unchecked(Matrix3::from_columns(&[x, y, x.cross(&y)]))
+        Rotation3::face_towards(&(along - origin), &(toward - origin))
     };
     let p = after[0] - before[0];
     let turn = frame(after) * frame(before).inverse();

@@ -1,8 +1,10 @@
 //! The maps of Figs. 3 and 4 and the zones of Table 1.
 
-use stiffarm_study::dexterity::{DexterityError, Map, Peak, Plane, influence, inverse_condition};
+use stiffarm_papers::methods::dumas;
+use stiffarm_study::dexterity::{Map, Peak, Plane, influence, inverse_condition};
 
-use super::{LENGTH, kr240, near, wrench};
+use super::{LENGTH, kr240};
+use crate::near;
 
 /// The three zones of Table 1 in θ2 and θ3, degrees.
 pub const ZONES: [(&str, [f64; 2], [f64; 2]); 3] = [
@@ -11,14 +13,9 @@ pub const ZONES: [(&str, [f64; 2], [f64; 2]); 3] = [
     ("Z3c", [100.0, 146.0], [0.0, 29.0]),
 ];
 
-/// θ1 = 0 and a wrist of 45° (section 3.1); θ2 and θ3 are the map's.
-fn posture() -> [f64; 6] {
-    [0.0, 0.0, 0.0, 45.0, 45.0, 45.0].map(f64::to_radians)
-}
-
-/// θ2 and θ3 over their limits, every 2°: −245° to 29° ends on the limit, 0° to 146° too.
+/// −245° to 29° ends on the limit, 0° to 146° too.
 fn plane() -> Plane {
-    Plane::over_limits(&kr240(), &posture(), [1, 2], 2.0_f64.to_radians()).unwrap()
+    dumas::plane(&kr240()).unwrap()
 }
 
 fn dexterity(length: f64) -> Map {
@@ -103,7 +100,7 @@ fn the_oblique_line_is_the_shoulder_singularity() {
     let arm = kr240();
     let line = [(53.9, 29.0), (57.0, 15.0), (61.7, 0.0), (73.1, -30.0), (86.1, -60.0)];
     for (second, third) in line.into_iter().chain([(139.6, -170.0)]) {
-        let mut q = posture();
+        let mut q = plane().posture;
         q[1] = f64::to_radians(second);
         q[2] = f64::to_radians(third);
         let wrist = arm.frames(&q)[4].translation.vector;
@@ -127,7 +124,7 @@ fn the_maps_of_fig_4() {
     for (arm, nu_p, place, nu_r) in
         [(table_2, 0.00123, (90.0, -81.0), 7e-5), (quoted, 0.0141, (96.0, -105.0), 0.0071)]
     {
-        let at = |q: &[f64]| influence(&arm, q, &wrench());
+        let at = |q: &[f64]| influence(&arm, q, &dumas::WRENCH);
         let found = plane().map(|q| at(q).map(|i| i.nu_p)).unwrap().max().unwrap();
         near(found.value, nu_p, 0.01 * nu_p);
         near(found.first.to_degrees(), place.0, 1e-9);
@@ -135,18 +132,4 @@ fn the_maps_of_fig_4() {
         let found = plane().map(|q| at(q).map(|i| i.nu_r)).unwrap().max().unwrap();
         near(found.value.to_degrees(), nu_r, 0.08 * nu_r);
     }
-}
-
-#[test]
-fn a_grid_needs_limits_and_a_step() {
-    let mut arm = kr240();
-    for step in [0.0, -1.0, f64::NAN, 1e-12] {
-        let grid = Plane::over_limits(&arm, &posture(), [1, 2], step);
-        assert!(matches!(grid, Err(DexterityError::Setting { .. })), "{step}");
-    }
-    assert!(Plane::over_limits(&arm, &posture(), [1, 1], 0.1).is_err());
-    assert!(Plane::over_limits(&arm, &posture(), [1, 6], 0.1).is_err());
-    arm.joints[2].limits = None;
-    let grid = Plane::over_limits(&arm, &posture(), [1, 2], 0.1);
-    assert_eq!(grid.unwrap_err(), DexterityError::Unlimited { joint: 3 });
 }

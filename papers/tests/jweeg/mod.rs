@@ -11,7 +11,6 @@ mod two_link;
 use nalgebra::{Matrix4, Vector3, Vector6};
 use proptest::prelude::*;
 use stiffarm_codegen::derive::{Displacements, Form, flexible};
-use stiffarm_codegen::emit::{FILE_HEAD, RustOptions, flexible_rust};
 use stiffarm_codegen::expr::Symbol;
 use stiffarm_codegen::robot::Robot;
 use stiffarm_gap::displacement::Displacement;
@@ -86,17 +85,6 @@ fn forms(arm: &Arm, errors: &[Displacement], q: &[f64]) -> [Matrix4<f64>; 3] {
     let simulated = simulated(arm, &vectors, q).tool.to_homogeneous();
     assert!((product(rpy::matrix) - simulated).amax() < 1e-13);
     [product(rpy::matrix), product(rpy::first_order), strict]
-}
-
-/// The committed closed forms of the two-link arm are what the table gives.
-#[test]
-fn the_closed_forms_are_generated() {
-    let text = include_str!("../../../robots/arms/jweeg_two_link.toml");
-    let (robot, _) = Robot::from_toml(text, "jweeg.toml").unwrap();
-    let kept = Displacements::read("dx,dy,dphi", 2).unwrap();
-    let options = RustOptions { kernels: "::stiffarm_kernels".into(), fused: false };
-    let committed = include_str!("closed_form.rs");
-    assert_eq!(format!("{FILE_HEAD}{}", flexible_rust(&robot, &kept, &options)), committed);
 }
 
 /// The generated forms of arms in space, standard and modified, revolute and prismatic, with tools,

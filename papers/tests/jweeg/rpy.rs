@@ -15,10 +15,8 @@ use stiffarm_kernels::generic::Arm;
 /// Eq. 15 is this product; eqs. 4 and 13 print `Rot(y)` with its sines exchanged, and the third
 /// element of the first column of eq. 18 must read `−sin dβ` as in eq. 15.
 pub fn transform(error: &Displacement) -> Isometry3<f64> {
-    let turn = |axis, angle| UnitQuaternion::from_axis_angle(&axis, angle);
     let r = error.rotation;
-    let (roll, pitch) = (turn(Vector3::z_axis(), r.z), turn(Vector3::y_axis(), r.y));
-    let rotation = roll * pitch * turn(Vector3::x_axis(), r.x);
+    let rotation = UnitQuaternion::from_euler_angles(r.x, r.y, r.z);
     Isometry3::from_parts(Translation3::from(error.translation), rotation)
 }
 

@@ -2,7 +2,8 @@
 
 use nalgebra::{Matrix3, Vector6};
 
-use super::{PUMA, fanuc, near, printed};
+use super::{PUMA, fanuc, printed};
+use crate::near;
 
 /// (A.3) as printed, joints 2 and 3, misprints and all: still not 0.00183.
 #[test]

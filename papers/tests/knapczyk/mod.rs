@@ -24,7 +24,3 @@ fn fanuc(stiffness: &[f64]) -> Arm {
 fn printed() -> [f64; 6] {
     PRINTED.map(f64::to_radians)
 }
-
-fn near(got: f64, want: f64, tolerance: f64) {
-    assert!((got - want).abs() <= tolerance, "{got} is not {want} ± {tolerance}");
-}

@@ -115,7 +115,3 @@ pub fn draws(seed: u64) -> Draws {
     draws.part();
     draws
 }
-
-pub fn near(found: f64, expected: f64, tolerance: f64) {
-    assert!((found - expected).abs() <= tolerance, "{found} is not {expected} ± {tolerance}");
-}

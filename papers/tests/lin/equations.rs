@@ -2,8 +2,9 @@
 
 use std::f64::consts::PI;
 
-use super::arms::{Links, draws, near, planar, weight};
+use super::arms::{Links, draws, planar, weight};
 use super::printed::Printed;
+use crate::near;
 
 /// Eq. 32 is the exact deflection of the clamped chain, as the textbook has it; eqs. 27 and 28 leave out
 /// what the slope of link 1 does through link 2, and eq. 46 counts the slopes of the links again:

@@ -1,8 +1,9 @@
 //! Table V: what its eight configurations can and cannot deflect by. Its angles, Table VI and step 9 are
 //! judged in the ledger, as are Tables I to III.
 
-use super::arms::{Links, draws, elbow, near, printed_elbow, weight};
+use super::arms::{Links, draws, elbow, printed_elbow, weight};
 use super::printed::Printed;
+use crate::near;
 
 /// theta1 to theta6 in degrees, deflection in inches.
 const TABLE_5: [([f64; 6], f64); 8] = [

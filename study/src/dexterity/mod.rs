@@ -152,3 +152,35 @@ pub fn check_posture(arm: &Arm, q: &[f64]) -> Result<(), DexterityError> {
         None => Ok(()),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use stiffarm_kernels::Motion;
+
+    use super::*;
+
+    #[test]
+    fn what_cannot_be_searched_or_mapped_is_refused() {
+        let (mut arm, q) = (crate::fixture::kr240([0.0; 3]), [0.3, 1.1, -1.7, 0.6, -0.9, 2.1]);
+        for length in [0.0, -1.0, f64::NAN] {
+            let error = inverse_condition(&arm, &q, length).unwrap_err();
+            assert!(matches!(error, DexterityError::Length { .. }), "{error}");
+        }
+        let none = Search { starts: 0, ..Search::default() };
+        let mut settings = vec![characteristic_length(&arm, none).map(|_| ())];
+        let steps = [0.0, -1.0, f64::NAN, 1e-12].map(|step| ([1, 2], step));
+        for (joints, step) in steps.into_iter().chain([([1, 1], 0.1), ([1, 6], 0.1)]) {
+            settings.push(Plane::over_limits(&arm, &q, joints, step).map(|_| ()));
+        }
+        for setting in settings {
+            assert!(matches!(setting, Err(DexterityError::Setting { .. })), "{setting:?}");
+        }
+        (arm.joints[2].motion, arm.joints[2].limits) = (Motion::Prismatic, None);
+        let unlimited = DexterityError::Unlimited { joint: 3 };
+        assert_eq!(Plane::over_limits(&arm, &q, [1, 2], 0.1).unwrap_err(), unlimited);
+        assert_eq!(characteristic_length(&arm, Search::default()).unwrap_err(), unlimited);
+        arm.joints.pop();
+        let error = characteristic_length(&arm, Search::default()).unwrap_err();
+        assert_eq!(error, DexterityError::TooFewJoints { found: 5 });
+    }
+}

@@ -1,3 +1,5 @@
+use std::collections::BTreeSet;
+
 use super::*;
 use crate::exact::reader::Reader;
 use crate::latex::lexer::lex;
@@ -60,10 +62,8 @@ fn what_grows_without_bounds_takes_what_it_divides_away() {
 #[test]
 fn a_formula_depends_on_what_does_not_cancel() {
     let text = "c + \\sin^2\\alpha + \\cos^2\\alpha + L\\sin\\beta - L\\sin\\beta + \\cos\\gamma";
-    let forms = Forms::new(&[], &[]).unwrap();
-    let entry = forms.tree(&parse(text, &Notation::default()).unwrap()).unwrap();
-    let truth = forms.truth(1, vec![entry]).unwrap();
+    let truth = Truth::written(text, &Notation::default());
     let (mut angles, mut symbols) = (BTreeSet::new(), BTreeSet::new());
-    truth.form(entry).names(&mut angles, &mut symbols);
+    truth.form(truth.entries[0]).names(&mut angles, &mut symbols);
     assert_eq!((angles, symbols), (["gamma".to_owned()].into(), ["c".to_owned()].into()));
 }

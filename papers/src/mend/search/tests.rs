@@ -1,8 +1,7 @@
 use super::*;
-use crate::exact::forms::Forms;
+use crate::exact::truth::Truth;
 use crate::latex::lexer::lex;
 use crate::latex::notation::Notation;
-use crate::latex::parser::parse;
 use crate::latex::tree::Function;
 
 fn changes(printed: &str, truth: &str) -> Option<Vec<String>> {
@@ -10,9 +9,7 @@ fn changes(printed: &str, truth: &str) -> Option<Vec<String>> {
     let functions = vec![f("s", Function::Sin), f("c", Function::Cos)];
     let notation = Notation { functions, ..Notation::default() };
     let tokens = lex(printed, &notation).unwrap();
-    let forms = Forms::new(&[], &[]).unwrap();
-    let entry = forms.tree(&parse(truth, &notation).unwrap()).unwrap();
-    let truth = &forms.truth(1, vec![entry]).unwrap();
+    let truth = &Truth::written(truth, &notation);
     let (read, truth) = (&Reader::new(&notation, truth), truth.form(truth.entries[0]));
     let mut inventory = Inventory::default();
     inventory.add(&tokens);

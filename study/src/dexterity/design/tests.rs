@@ -47,7 +47,7 @@ fn within_limits<'a>(whole: impl Into<Whole<'a>>, design: &Design) {
 }
 
 /// No exchange of one test for another is better: by brute force, on determinants of matrices put
-/// together here.
+/// together here. The deviations that are expected are those of `(BᵀB)⁻¹` (Dumas et al., eqs. 21 to 26).
 #[test]
 fn no_single_exchange_is_better() {
     let arm = kr240();
@@ -56,17 +56,25 @@ fn no_single_exchange_is_better() {
     let pool = super::candidates::draw(Whole::from(&arm), &plan).unwrap();
     let blocks =
         super::candidates::blocks(Whole::from(&arm), &plan, &pool.postures, false).unwrap();
-    let determinant = |tests: &[(&[f64], Vector6<f64>)]| {
+    let information = |tests: &[(&[f64], Vector6<f64>)]| {
         let mut sum = DMatrix::<f64>::zeros(6, 6);
         for (q, wrench) in tests {
             let b = arm.compliance_regressor(q, wrench).fixed_rows::<3>(0).into_owned();
-            sum += b.transpose() * &b * 1e12;
+            // Of the difference of two readings.
+            sum += b.transpose() * &b / (2.0 * plan.noise_position.powi(2));
         }
-        sum.determinant()
+        sum
     };
     let own: Vec<(&[f64], Vector6<f64>)> =
         found.tests.iter().map(|t| (t.q.as_slice(), t.wrench)).collect();
-    let best = determinant(&own);
+    let best = information(&own);
+    let covariance = best.clone().try_inverse().unwrap();
+    for (k, expected) in found.expected.iter().enumerate() {
+        let deviation = covariance[(k, k)].sqrt();
+        assert!((deviation / expected.compliance.unwrap() - 1.0).abs() < 1e-4, "{expected:?}");
+    }
+    assert!(found.efficiency > 1.5, "{}", found.efficiency);
+    let best = best.determinant();
     for slot in 0..4 {
         for block in &blocks {
             let q = pool.postures[block.posture].q.as_slice();
@@ -77,7 +85,7 @@ fn no_single_exchange_is_better() {
             tests[slot] = (q, plan.loads[block.load]);
             // Gains of less than a millionth of the logarithm are not taken, and what is assumed
             // to be known before changes each pivot by a millionth.
-            assert!(determinant(&tests) <= best * (1.0 + 1e-4));
+            assert!(information(&tests).determinant() <= best * (1.0 + 1e-4));
         }
     }
 }
