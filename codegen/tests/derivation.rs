@@ -1,10 +1,10 @@
 //! The derivation against the graph's own symbolic derivative: a second way to every derivative that
 //! stays inside the graph, exact but for rounding.
 
-mod common;
-
 use stiffarm_codegen::derive::{Held, Output, derive_in};
 use stiffarm_codegen::expr::{Expr, Graph, Symbol};
+
+use super::common;
 
 /// Values for the symbols: posture, wrench.
 fn value(symbol: &Symbol) -> f64 {

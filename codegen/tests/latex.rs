@@ -1,9 +1,9 @@
 //! The LaTeX and dot printers on real arms.
 
-mod common;
-
 use stiffarm_codegen::derive::Output;
 use stiffarm_codegen::emit::{dot, latex};
+
+use super::common;
 
 #[test]
 fn latex_is_balanced_and_speaks_the_papers_notation() {

@@ -37,7 +37,7 @@ fn reads(bytes: &[u8], names: &Names) -> Result<(), TestCaseError> {
             prop_assert!(!log.runs.is_empty());
             prop_assert_eq!(
                 log.samples,
-                log.runs.iter().map(|r| r.t.len() + r.clock.repeated).sum()
+                log.runs.iter().map(|r| r.t.len() + r.clock.repeated).sum::<usize>()
             );
             log.runs.iter().try_for_each(is_sound)?;
             prop_assert!(log.damaged.iter().all(|damaged| damaged.line > 0));
