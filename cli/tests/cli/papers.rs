@@ -14,7 +14,7 @@ fn the_built_in_ledger_names_the_misprints() {
 fn a_file_of_ones_own_is_judged_and_written() {
     let folder = Folder::new();
     let page = folder.name("ledger.html");
-    let own = "papers/data/knapczyk/equations.toml";
+    let own = "papers/data/lin1991/equations.toml";
     assert_eq!(stiffarm(&["papers", own, "--html", &page]).good(), "");
     let html = std::fs::read_to_string(page).expect("written");
     assert!(html.contains("<html") && !html.contains("http://") && !html.contains("src=\"//"));

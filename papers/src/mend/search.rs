@@ -1,6 +1,8 @@
 //! The search for the smallest change.
 
-use std::collections::{BTreeSet, HashMap};
+use std::collections::BTreeSet;
+
+use rustc_hash::FxHashMap;
 
 use super::brackets::{brackets, moved_brackets};
 use super::core::{Core, Pair};
@@ -193,7 +195,7 @@ impl<'a> Eye<'a> {
                 changes.push((difference(core.value, start.value), edit));
             }
         }
-        let table: HashMap<Pair, &Edit> =
+        let table: FxHashMap<Pair, &Edit> =
             changes.iter().rev().map(|(change, edit)| (*change, *edit)).collect();
         let mut found: Vec<Vec<&Edit>> = Vec::new();
         for goal in wanted {

@@ -32,6 +32,22 @@ struct Series {
     terms: Vec<[f64; 2]>,
 }
 
+/// Harmonic l at one time: its rate `l ω`, rad/s, the sine and the cosine. Joints share them.
+struct Wave {
+    rate: f64,
+    sin: f64,
+    cos: f64,
+}
+
+fn waves(harmonics: usize, base: f64, time: f64) -> Vec<Wave> {
+    let wave = |l: usize| {
+        let rate = l as f64 * base;
+        let (sin, cos) = (rate * time).sin_cos();
+        Wave { rate, sin, cos }
+    };
+    (1..=harmonics).map(wave).collect()
+}
+
 impl Fourier {
     /// A motion of chance that uses the limits, once through.
     pub fn draw(limits: &Limits, period: f64, harmonics: usize, rng: &mut Rng) -> Fourier {
@@ -69,23 +85,31 @@ impl Fourier {
     /// from −1 to 1, and moved where the motion would leave them.
     fn within(mut self, limits: &Limits) -> Fourier {
         let base = TAU / self.period;
+        let count = FINE * self.harmonics();
+        let samples = (0..count).map(|k| TAU / base * k as f64 / count as f64);
+        let samples: Vec<_> = samples.map(|time| waves(self.harmonics(), base, time)).collect();
         for (k, series) in self.joints.iter_mut().enumerate() {
             series.rest();
             let [low, high] = limits.position[k];
             let part = core::mem::replace(&mut series.middle, 0.0);
-            let [bottom, top] = series.extremes(base);
-            let sizes = [(top - bottom) / (high - low), series.fastest(base) / limits.rate[k]];
-            let hardest = series.hardest(base) / limits.acceleration[k];
+            let [bottom, top] = series.extremes(&samples);
+            let sizes =
+                [(top - bottom) / (high - low), series.largest(&samples, 1) / limits.rate[k]];
+            let hardest = series.largest(&samples, 2) / limits.acceleration[k];
             let largest = sizes.into_iter().fold(hardest, f64::max);
             if largest > 0.0 {
                 series.terms.iter_mut().flatten().for_each(|x| *x /= largest);
             }
-            let [bottom, top] = series.extremes(base);
+            let [bottom, top] = series.extremes(&samples);
             let wanted = 0.5 * ((1.0 - part) * low + (1.0 + part) * high) - 0.5 * (bottom + top);
             // Rounding may leave a range that is used up a little too small.
             series.middle = wanted.max(low - bottom).min(high - top);
         }
         self
+    }
+
+    fn harmonics(&self) -> usize {
+        self.joints.first().map_or(0, |series| series.terms.len())
     }
 }
 
@@ -104,11 +128,9 @@ impl Series {
     }
 
     /// Value, rate and acceleration.
-    fn at(&self, base: f64, time: f64) -> [f64; 3] {
+    fn at(&self, waves: &[Wave]) -> [f64; 3] {
         let mut all = [self.middle, 0.0, 0.0];
-        for (l, [a, b]) in (1..).zip(&self.terms) {
-            let rate = f64::from(l) * base;
-            let (sin, cos) = (rate * time).sin_cos();
+        for (Wave { rate, sin, cos }, [a, b]) in waves.iter().zip(&self.terms) {
             all[0] += (a * sin - b * cos) / rate;
             all[1] += a * cos + b * sin;
             all[2] += rate * (b * cos - a * sin);
@@ -116,29 +138,17 @@ impl Series {
         all
     }
 
-    fn samples(&self, base: f64, which: usize) -> impl Iterator<Item = f64> {
-        let count = FINE * self.terms.len();
-        (0..count).map(move |k| self.at(base, TAU / base * k as f64 / count as f64)[which])
-    }
-
-    /// At most.
-    fn largest(&self, base: f64, which: usize) -> f64 {
-        let between = (PI / FINE as f64).cos();
-        self.samples(base, which).fold(0.0, |most: f64, x| most.max(x.abs())) / between
-    }
-
-    fn fastest(&self, base: f64) -> f64 {
-        self.largest(base, 1)
-    }
-
-    fn hardest(&self, base: f64) -> f64 {
-        self.largest(base, 2)
+    /// At most, of rates (1) or accelerations (2).
+    fn largest(&self, samples: &[Vec<Wave>], which: usize) -> f64 {
+        let sizes = samples.iter().map(|waves| self.at(waves)[which].abs());
+        sizes.fold(0.0, f64::max) / (PI / FINE as f64).cos()
     }
 
     /// At least and at most, of values.
-    fn extremes(&self, base: f64) -> [f64; 2] {
+    fn extremes(&self, samples: &[Vec<Wave>]) -> [f64; 2] {
         let ends = |[low, high]: [f64; 2], x: f64| [low.min(x), high.max(x)];
-        let [low, high] = self.samples(base, 0).fold([f64::INFINITY, f64::NEG_INFINITY], ends);
+        let values = samples.iter().map(|waves| self.at(waves)[0]);
+        let [low, high] = values.fold([f64::INFINITY, f64::NEG_INFINITY], ends);
         // About its middle the polynomial is one whose largest sample is half the range.
         let more = 0.5 * (high - low) * (1.0 / (PI / FINE as f64).cos() - 1.0);
         [low - more, high + more]
@@ -152,7 +162,8 @@ impl Course for Fourier {
 
     fn at(&self, time: f64) -> State {
         let time = time.clamp(0.0, self.duration());
-        self.joints.iter().map(|series| series.at(TAU / self.period, time)).collect()
+        let waves = waves(self.harmonics(), TAU / self.period, time);
+        self.joints.iter().map(|series| series.at(&waves)).collect()
     }
 }
 
