@@ -82,7 +82,8 @@ pub fn solve_fused<S: Scalar, const N: usize, const M: usize>(
     follow::<S, N, M>(a, b, margin, |x, factor, y| S::mul_add(factor, -y, x))
 }
 
-/// Whether a pivot is positive, by its inverse: the difference is not zero where either of them is infinite.
+/// Whether a pivot is positive and finite, and so is its inverse: that of an infinite one is zero, and what is infinite
+/// less itself is no number.
 #[allow(clippy::eq_op, reason = "infinite less infinite is no number")]
 #[inline(always)]
 fn sound<S: Scalar>(inverse: S) -> bool {
@@ -164,7 +165,7 @@ fn definite<S: Scalar, const N: usize>(
 /// * It is the rows of the pivots that are divided, not the columns: then each unknown follows from the next ones
 ///   without a product of its own.
 ///
-/// In single precision the product of two pivots is a number for springs from 1e-18 to 1e18 N·m/rad.
+/// In single precision the product of two pivots is a number for springs from 1e-18 to 1e18 N·m/rad; others are refused.
 #[inline(always)]
 fn eliminate<S: Scalar, const N: usize>(
     mut a: [[S; N]; N],

@@ -54,14 +54,18 @@ bits!(f32, u32, Precision::F32);
 /// A draw: joint values, what stands behind them, and a wrench.
 type Draw<S> = (Vec<S>, [S; 6]);
 
-/// Postures within ±3 rad, a few up to ±100 rad; loads up to 100 N, a few that no arm bears; an angle
-/// beyond all reason, and one that is none.
+/// Postures within ±3 rad, a few up to ±100 rad; loads up to 100 N, a few that no arm bears, some of which have
+/// squares that single precision has not; an angle beyond all reason, and one that is none.
 fn draws<S: Scalar>(n: usize) -> Vec<Draw<S>> {
     let mut draws = Draws::new(1);
     let mut unit = move || draws.unit();
     let mut each = |k: usize| {
         let turn = if k % 10 == 7 { 100.0 } else { 3.0 };
-        let load = if k % 25 == 3 { 1e9 } else { 100.0 };
+        let load = match k % 25 {
+            3 => 1e9,
+            13 => 1e30,
+            _ => 100.0,
+        };
         let mut q: Vec<f64> = (0..n).map(|_| turn * unit()).collect();
         match k {
             0 => q.fill(0.0),
