@@ -82,15 +82,13 @@ pub fn solve_fused<S: Scalar, const N: usize, const M: usize>(
     follow::<S, N, M>(a, b, margin, |x, factor, y| S::mul_add(factor, -y, x))
 }
 
-/// Whether a pivot is positive and finite, and so is its inverse: that of an infinite one is zero, and what is infinite
-/// less itself is no number.
-#[allow(clippy::eq_op, reason = "infinite less infinite is no number")]
+/// Whether a pivot is positive and finite, by its inverse, and `x` is finite: the inverse of an infinite pivot is zero.
+#[allow(clippy::eq_op, reason = "it is not zero where a number is not finite")]
 #[inline(always)]
-fn sound<S: Scalar>(inverse: S) -> bool {
-    (inverse + (inverse - inverse)).is_positive()
+fn sound<S: Scalar>(inverse: S, x: S) -> bool {
+    (inverse + (x - x)).is_positive()
 }
 
-#[allow(clippy::eq_op, reason = "it is not zero where a number is not finite")]
 #[inline(always)]
 fn follow<S: Scalar, const N: usize, const M: usize>(
     a: [[S; N]; N],
@@ -112,7 +110,7 @@ fn follow<S: Scalar, const N: usize, const M: usize>(
         }
         let inverse = a[i][i].recip();
         b[i] = b[i] * inverse;
-        stable &= (inverse + (b[i] - b[i])).is_positive();
+        stable &= sound(inverse, b[i]);
     }
     if !stable {
         return Err(Unstable);
@@ -209,14 +207,14 @@ fn two<S: Scalar, const N: usize>(
     if l < N {
         let below = a[k][l];
         let inverse = less(pivot * a[l][l], below, a[l][k]).recip();
-        stable = sound(inverse);
+        stable = sound(inverse, inverse);
         for column in l + 1..N {
             a[column][l] = less(pivot * a[column][l], below, a[column][k]) * inverse;
         }
         b[l] = less(pivot * b[l], below, b[k]) * inverse;
     }
     let inverse = pivot.recip();
-    stable &= sound(inverse);
+    stable &= sound(inverse, inverse);
     for column in l..N {
         a[column][k] = a[column][k] * inverse;
     }

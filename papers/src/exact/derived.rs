@@ -88,9 +88,11 @@ impl<'p> Path<'p> {
     }
 
     /// What the path names of a matrix.
-    fn of(&self, whole: &Matrix) -> Result<Matrix, String> {
-        let entry = self.entry(whole.shape())?;
-        Ok(entry.map_or(whole.clone(), |entry| Matrix::from_element(1, 1, whole[entry])))
+    fn of(&self, whole: Matrix) -> Result<Matrix, String> {
+        Ok(match self.entry(whole.shape())? {
+            None => whole,
+            Some(entry) => Matrix::from_element(1, 1, whole[entry]),
+        })
     }
 }
 
@@ -117,7 +119,7 @@ pub fn derived(
         "transport_transposed" => transport(&product()?, forms)?.transpose(),
         name => return output(name, &path, setting, shared.robots, forms),
     };
-    path.of(&whole)
+    path.of(whole)
 }
 
 /// What of a robot's derivation a path names.
@@ -187,7 +189,7 @@ fn output(
     }
     let wrench = setting.wrench.iter().map(|tree| forms.tree(tree)).collect::<Result<_, _>>()?;
     let entries = &program.blocks[0].entries[..rows * columns];
-    let named = path.of(&Matrix::from_column_slice(rows, columns, entries))?;
+    let named = path.of(Matrix::from_column_slice(rows, columns, entries))?;
     let values = Reading { joints, wrench }.values(forms, &program.graph, named.as_slice())?;
     Ok(Matrix::from_vec(named.nrows(), named.ncols(), values))
 }

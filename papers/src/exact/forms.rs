@@ -3,6 +3,7 @@
 use std::cell::RefCell;
 use std::collections::HashMap;
 
+use nalgebra::DMatrix;
 use num_rational::Ratio;
 use stiffarm_codegen::expr::{Expr, Graph, Node, Symbol};
 use stiffarm_codegen::number::Number;
@@ -99,7 +100,12 @@ impl Forms {
         (single.is_none() && !a.is_negative()).then_some(root)
     }
 
-    /// The entries of a matrix, in the limit of the symbols that grow without bounds.
+    /// [`Forms::truth`] of a whole matrix.
+    pub(crate) fn truth_of(self, matrix: &DMatrix<Expr>) -> Result<Truth, String> {
+        self.truth(matrix.ncols(), matrix.transpose().as_slice().to_vec())
+    }
+
+    /// The entries of a matrix, row by row, in the limit of the symbols that grow without bounds.
     ///
     /// # Errors
     /// There is no limit.

@@ -134,7 +134,7 @@ mod tests {
     }
 
     fn zero(forms: Forms, matrix: Matrix) -> Vec<bool> {
-        let truth = forms.truth(matrix.ncols(), matrix.transpose().as_slice().to_vec()).unwrap();
+        let truth = forms.truth_of(&matrix).unwrap();
         truth.entries.iter().map(|entry| truth.form(*entry).is_zero()).collect()
     }
 

@@ -39,11 +39,9 @@ impl Truth {
         let entries = vec![forms.tree(tree).ok()?];
         Some(Truth { graph: forms.graph.into_inner(), columns: 1, entries, names: forms.names })
     }
-}
 
-#[cfg(test)]
-impl Truth {
     /// A formula as it is written.
+    #[cfg(test)]
     pub fn written(text: &str, notation: &Notation) -> Truth {
         let forms = Forms::new(&[], &[]).unwrap();
         let entry = forms.tree(&parse(text, notation).unwrap()).unwrap();

@@ -29,7 +29,7 @@ pub fn truth(paper: &Paper, equation: &Equation) -> Result<Truth, String> {
     let written = match &equation.about {
         About::Path(path) => {
             let derived = derived(&path.text, setting, paper.shared(), &forms)?;
-            return forms.truth(derived.ncols(), derived.transpose().as_slice().to_vec());
+            return forms.truth_of(&derived);
         }
         About::Formula(written) => written,
         About::Definition(_) | About::Relation(_) | About::Nothing => {

@@ -25,10 +25,10 @@ pub(super) fn transform(
         whole = transport(&whole, &forms)?;
     }
     let value = |name: &str| Some(0.3 + 1.4 * Modular::point(0).part(name));
-    let (rows, columns) = whole.shape();
-    let truth = forms.truth(columns, whole.transpose().as_slice().to_vec())?;
+    let truth = forms.truth_of(&whole)?;
     let each = truth.entries.iter().map(|entry| truth.form(*entry).value(&Real(value)));
-    let whole = Dense::from_row_slice(rows, columns, &each.collect::<Result<Vec<f64>, _>>()?);
+    let each = each.collect::<Result<Vec<f64>, _>>()?;
+    let whole = Dense::from_row_slice(whole.nrows(), whole.ncols(), &each);
     let p = Vector3::from_fn(|k, _| whole[(k, 3)]);
     Ok(match part {
         "transport" => whole,

@@ -97,3 +97,31 @@ pub fn largest(two: TwoLink, w: f64, offset: f64) -> [Largest; 2] {
     }
     found
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// a2 = 0.4 m: the difference to the digits that a table would print, and how long its leading
+    /// term holds.
+    #[test]
+    fn the_table_of_the_two_link_arm() {
+        let expected = [
+            (1e-4, 2.0e-9),
+            (1e-3, 2.0e-7),
+            (1e-2, 2.0e-5),
+            (0.03, 1.8e-4),
+            (0.1, 2.0e-3),
+            (0.2, 8.0e-3),
+            (0.3, 1.80e-2),
+        ];
+        let turns: Vec<f64> = expected.iter().map(|row| row.0).collect();
+        for (row, (phi, size)) in two_link(0.4, &turns).iter().zip(expected) {
+            assert_eq!(row.phi, phi);
+            assert!((row.difference / size - 1.0).abs() < 5e-3, "{row:?}");
+            let least = if phi > 0.1 { 0.9975 } else { 0.9997 };
+            let part = row.leading / row.difference;
+            assert!((least - 5e-5..1.003).contains(&part), "{row:?} {part}");
+        }
+    }
+}
