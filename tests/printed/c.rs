@@ -2,7 +2,7 @@
 
 use stiffarm_codegen::emit::{Precision, Sines};
 
-use crate::batch::{Batch, Case};
+use crate::batch::{Batch, Case, level};
 use crate::compiler::{Folder, compile, run};
 use crate::program::program;
 
@@ -16,6 +16,6 @@ fn of(case: &Case, seed: u64) -> Vec<String> {
     let folder = Folder::new(&format!("printed-{seed}-{name}"));
     folder.write_c(&robot, name, (Precision::F64, Sines::Polynomial));
     folder.write("main.c", &program(name, &robot, Precision::F64));
-    compile("cc", &folder, &["-O1", "main.c", &format!("{name}.c"), "-o", name, "-lm"]);
+    compile("cc", &folder, &[level(seed), "main.c", &format!("{name}.c"), "-o", name, "-lm"]);
     run(&folder, name, &case.input()).lines().map(str::to_owned).collect()
 }

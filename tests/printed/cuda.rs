@@ -7,7 +7,7 @@ use stiffarm::kernels::{Output, Side};
 use stiffarm_codegen::emit::{CudaOptions, Precision, cuda};
 use stiffarm_codegen::robot::Robot;
 
-use crate::batch::{Batch, Case};
+use crate::batch::{Batch, Case, level};
 use crate::compiler::{CUDA, Folder, compile, run};
 
 /// What of CUDA the text uses, for a GPU's compiler without CUDA's headers and libraries.
@@ -41,7 +41,7 @@ fn of(case: &Case, seed: u64) -> Vec<String> {
     let folder = Folder::new(&format!("cuda-{seed}-{}", case.name));
     folder.write("arm.cu", &text(&robot));
     folder.write("main.c", &main(&robot, case.questions.len()));
-    compile("cc", &folder, &["-O1", "main.c", "-o", "arm", "-lm"]);
+    compile("cc", &folder, &[level(seed), "main.c", "-o", "arm", "-lm"]);
     run(&folder, "arm", &case.input()).lines().map(str::to_owned).collect()
 }
 

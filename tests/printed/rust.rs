@@ -4,7 +4,6 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 use std::process::Command;
-use std::sync::{Mutex, PoisonError};
 
 use stiffarm::kernels::{Form, Output};
 use stiffarm_codegen::emit::{RustOptions, rust};
@@ -81,14 +80,12 @@ fn main() {
 }
 "#;
 
-/// One crate at a time: they share a folder, so that the kernels are compiled once.
-static FOLDER: Mutex<()> = Mutex::new(());
-
 /// For every arm the answers of the plain text to all questions, then those of the fused one; with a
 /// feature of the kernels, and what the compiler is told.
 pub fn answers(batch: &Batch, (feature, flags): (&str, &str)) -> Vec<Vec<String>> {
-    let _alone = FOLDER.lock().unwrap_or_else(PoisonError::into_inner);
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("printed");
+    // Batches that run side by side differ by one or the other; those that follow each other find the kernels compiled.
+    let name = format!("printed-{}-{feature}", batch.cases.len());
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     let source = folder.join("src");
     fs::create_dir_all(&source).expect("a folder");
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -113,15 +110,14 @@ pub fn answers(batch: &Batch, (feature, flags): (&str, &str)) -> Vec<Vec<String>
     }
     arms.push_str("        _ => unreachable!(\"no such arm\"),\n    }\n}\n");
     fs::write(source.join("main.rs"), main + &arms).expect("written");
-    let target = if flags.is_empty() { "target" } else { "flags" };
     let mut cargo = Command::new(env!("CARGO"));
     // Not `--offline`: `dispatch` needs a package that nothing else of the workspace has fetched.
-    cargo.args(["build", "--quiet", "--features", feature, "--target-dir", target]);
+    cargo.args(["build", "--quiet", "--features", feature, "--target-dir", "target"]);
     cargo.env("RUSTFLAGS", flags).current_dir(&folder);
     let built = cargo.output().expect("cargo starts");
     let said = String::from_utf8_lossy(&built.stderr);
     assert!(built.status.success(), "seed {}, {}:\n{said}", batch.seed, folder.display());
-    let program = folder.join(target).join("debug/printed");
+    let program = folder.join("target/debug/printed");
     batch.cases.iter().map(|case| run(&program, case)).collect()
 }
 
