@@ -21,6 +21,8 @@ pub mod gap;
 pub mod identify;
 pub mod log;
 pub mod mistakes;
+#[cfg(test)]
+mod noisy;
 pub mod performance;
 pub mod pool;
 pub mod predicted;

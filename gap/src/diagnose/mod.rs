@@ -28,8 +28,6 @@ mod prediction;
 mod prior;
 mod progress;
 pub(crate) mod search;
-#[cfg(test)]
-mod tests;
 mod verdict;
 
 use stiffarm_kernels::Motion;
@@ -37,7 +35,7 @@ use stiffarm_kernels::generic::Arm;
 
 pub use data::LARGEST;
 pub(crate) use data::Problem;
-pub(crate) use fit::{aligned, prior_penalty, refit, rigid};
+pub(crate) use fit::{aligned, prior_penalty, refit_roughly, rigid};
 use options::LEAST_POSES;
 pub use options::{DiagnoseError, Nuisance, Options, TOLERANCE};
 pub use prediction::{Expected, Explanation, Prediction, Trust};

@@ -13,7 +13,7 @@ use super::fit::{Left, best};
 use super::kind::{Entry, Mistake};
 use super::search::Search;
 use crate::constants::{FLAT_ARM, NEARLY_ALL_ROWS, ORDINARY_GAP};
-use crate::diagnose::{Options, Problem, aligned, prior_penalty, refit};
+use crate::diagnose::{Options, Problem, aligned, prior_penalty, refit_roughly};
 use crate::gap::rms;
 use crate::instrument::View;
 use crate::measurement::{Kind, Measurements, Row};
@@ -65,7 +65,7 @@ impl Search<'_> {
         // Tolerances count against what arms leave beside them; an angle, by the reach.
         let (length, angle) = (1.0 / (ORDINARY_GAP * self.reach), 1.0 / ORDINARY_GAP);
         let weights = Vector6::new(length, length, length, angle, angle, angle);
-        let fit = refit(&problem, aligned(&problem).ok()?, None, &weights).ok()?;
+        let fit = refit_roughly(&problem, aligned(&problem).ok()?, &weights).ok()?;
         let size = |gap: &Vector6<f64>| gap.component_mul(&weights).norm() / length;
         let sizes: Vec<f64> = fit.predicted.gaps.iter().map(size).collect();
         let position = rms(&sizes);

@@ -31,8 +31,6 @@ mod ros;
 #[cfg(feature = "rosbag2")]
 mod rosbag2;
 mod table;
-#[cfg(test)]
-mod tests;
 mod text;
 
 use std::collections::BTreeMap;

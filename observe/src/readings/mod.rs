@@ -24,8 +24,6 @@ mod join;
 mod names;
 mod rests;
 mod sheet;
-#[cfg(test)]
-mod tests;
 mod turn;
 #[cfg(feature = "xlsx")]
 mod workbook;

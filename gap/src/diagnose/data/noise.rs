@@ -333,9 +333,9 @@ impl Repeats {
 mod tests {
     use super::*;
     use crate::diagnose::data::Precision;
-    use crate::diagnose::tests::normal;
     use crate::fixture::{rigid, row, table};
     use crate::measurement::{Kind, Measurements, Row};
+    use crate::noisy::normal;
     use crate::rng::{Rng, Stream};
 
     /// Two poses of three repeats each, ±1 mm about what the arm says.

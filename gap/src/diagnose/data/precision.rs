@@ -147,9 +147,9 @@ fn scatter(numbers: &[[f64; 2]], part: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::diagnose::tests::normal;
     use crate::fixture::{row, table};
     use crate::measurement::{Kind, Row};
+    use crate::noisy::normal;
     use crate::rng::{Rng, Stream};
 
     #[test]

@@ -21,5 +21,5 @@ pub(crate) use bond::{Bond, Place};
 pub(crate) use model::{Fitted, Model, Predicted};
 pub(crate) use placed::{Placed, placed};
 pub(crate) use refit::{
-    Fit, block, normal_equations, prior_penalty, refit, refit_below, squares, step,
+    Fit, block, normal_equations, prior_penalty, refit, refit_below, refit_roughly, squares, step,
 };

@@ -65,6 +65,28 @@ pub(crate) fn refit_below(
     weights: &Vector6<f64>,
     below: f64,
 ) -> Result<Fit, DiagnoseError> {
+    // Frames alone are fitted to rounding: theirs is hand-eye calibration.
+    let last = if model.found.is_empty() { LAST * LAST } else { LAST };
+    refit_until(problem, model, near, weights, [below, last])
+}
+
+/// The same as far as sizes are compared, to a thousandth: where each step falls by a thirtieth less than the one before,
+/// what is left to fall is half of that.
+pub(crate) fn refit_roughly(
+    problem: &Problem<'_>,
+    model: Model,
+    weights: &Vector6<f64>,
+) -> Result<Fit, DiagnoseError> {
+    refit_until(problem, model, None, weights, [f64::INFINITY, LAST.sqrt()])
+}
+
+fn refit_until(
+    problem: &Problem<'_>,
+    model: Model,
+    near: Option<&[Sim]>,
+    weights: &Vector6<f64>,
+    [below, last]: [f64; 2],
+) -> Result<Fit, DiagnoseError> {
     let predicted = model.predict(problem, near)?;
     let mut fit = Fit { model, predicted: Arc::new(predicted) };
     if fit.model.parameters(problem) == 0 {
@@ -74,8 +96,6 @@ pub(crate) fn refit_below(
         squares(problem, &predicted.gaps, weights) + prior_penalty(problem, model)
     };
     let mut now = cost(&fit.model, &fit.predicted);
-    // Frames alone are fitted to rounding: theirs is hand-eye calibration.
-    let last = if fit.model.found.is_empty() { LAST * LAST } else { LAST };
     let mut predicted = 0;
     for _ in 0..NEWTON_STEPS {
         // Frames are fitted to the end; effects are not told before.

@@ -61,11 +61,11 @@ pub(crate) fn scale_elastic(
 mod tests {
     use super::*;
     use crate::diagnose::Options;
-    use crate::diagnose::tests::data;
     use crate::effects::{CATALOGUE, Place};
     use crate::fixture::springy;
     use crate::infer::constants::LOOSE;
     use crate::measurement::Measurements;
+    use crate::noisy::data;
     use stiffarm_kernels::generic::Arm;
 
     /// A softer joint under the same loads: what is usual moves the tool as far as it should.

@@ -119,11 +119,11 @@ mod tests {
     use crate::diagnose::data::{Folds, Problem};
     use crate::diagnose::fit::Model;
     use crate::diagnose::normal_equations::{Candidate, scale_elastic};
-    use crate::diagnose::tests::normal;
     use crate::effects::{CATALOGUE, Place, Spot};
     use crate::fixture::{rigid, row, table};
     use crate::infer::pruned;
     use crate::measurement::{Kind, Row};
+    use crate::noisy::normal;
     use crate::rng::{Rng, Stream};
     use crate::simulate::simulate;
 

@@ -126,9 +126,9 @@ fn autocorrelation(problem: &Problem<'_>, gaps: &[Vector6<f64>]) -> Option<Autoc
 mod tests {
     use super::*;
     use crate::diagnose::Options;
-    use crate::diagnose::tests::normal;
     use crate::fixture::{rigid, row, table};
     use crate::measurement::{Kind, Row};
+    use crate::noisy::normal;
     use crate::rng::{Rng, Stream};
 
     /// 400 rows at poses of their own whose gaps are made of what `each` makes of normal numbers.

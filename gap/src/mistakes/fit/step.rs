@@ -82,12 +82,9 @@ impl Fit {
             let weight = weight / (scale * scale);
             for (a, (i, one)) in columns.iter().enumerate() {
                 right[*i] += weight * one.dot(&gap);
+                // Cholesky reads the lower half.
                 for (j, other) in &columns[a..] {
-                    let product = weight * one.dot(other);
-                    normal[(*i, *j)] += product;
-                    if i != j {
-                        normal[(*j, *i)] += product;
-                    }
+                    normal[(*i.max(j), *i.min(j))] += weight * one.dot(other);
                 }
             }
         }

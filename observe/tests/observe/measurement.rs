@@ -1,8 +1,12 @@
-use super::*;
-use crate::instrument::{Bench, Seen, View};
-use nalgebra::{Isometry3, Vector3};
+//! Measurement files: every column of the format, and what is said of what is wrong.
+
+use std::path::Path;
+
+use nalgebra::{Isometry3, Vector3, Vector6};
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::{Arm, Joint};
+use stiffarm_observe::instrument::{Bench, Seen, View};
+use stiffarm_observe::measurement::*;
 
 fn body(name: &str, mass: f64, com: [f64; 3]) -> Body {
     Body { name: name.to_owned(), mass, com: com.into() }

@@ -1,11 +1,13 @@
+//! Other programs' tables, made into measurement files.
+
 #[cfg(feature = "xlsx")]
 mod workbook;
 
 use nalgebra::{Rotation3, Vector3};
+use stiffarm_io::{Map, ReadError};
 use stiffarm_kernels::Motion;
-
-use super::*;
-use crate::measurement::{Kind, Layout, Measurements};
+use stiffarm_observe::measurement::{Kind, Layout, Measurements};
+use stiffarm_observe::readings::*;
 
 fn import_with(text: &str, map: &str) -> Result<Imported, ReadError> {
     let map = Map::read("map.toml", map)?;

@@ -1,7 +1,8 @@
-use stiffarm_kernels::Motion;
+//! Joint logs as text: units, runs, damage, other programs' columns.
 
-use super::*;
-use crate::io::Map;
+use stiffarm_io::{Map, ReadError};
+use stiffarm_kernels::Motion;
+use stiffarm_observe::log::*;
 
 const MOTIONS: [Motion; 2] = [Motion::Revolute, Motion::Prismatic];
 
@@ -159,7 +160,7 @@ fn a_log_has_the_dialects_of_a_table() {
     assert!(read("").unwrap_err().contains("found no column `t`"));
     let wide: Vec<u8> =
         "\u{feff}t;q1;tau1\n0;1;2\n".encode_utf16().flat_map(u16::to_le_bytes).collect();
-    assert!(super::Opened::from(wide.clone()).is_log());
+    assert!(Opened::from(wide.clone()).is_log());
     let log = Log::from_bytes("log.csv", &wide, &MOTIONS[..1], &Names::default()).unwrap();
     assert_eq!(log.runs[0].signals[&Signal::Torque], [[2.0]]);
 }

@@ -1,43 +1,22 @@
 //! The diagnosis as a whole, on plants with a known cause.
 
-use super::*;
-use crate::effects::Place;
-use crate::fixture::{bent, row, springy, table};
-use crate::measurement::{Kind, Row};
-use crate::report::{Hidden, Report};
-use crate::rng::{Rng, Stream};
-use crate::simulate::simulate;
+mod left_out;
+mod load_frame;
+mod promise;
+mod refined;
+
 use nalgebra::{Isometry3, Vector3, Vector6};
+use stiffarm_gap::diagnose::{CannotSee, Diagnosis, Gauge, Nuisance, Stage};
+use stiffarm_gap::effects::Place;
+use stiffarm_gap::gap::row_gap;
+use stiffarm_gap::measurement::{Kind, Row};
+use stiffarm_gap::report::{Hidden, Report};
+use stiffarm_gap::rng::{Rng, Stream};
+use stiffarm_gap::simulate::simulate;
+use stiffarm_gap::{Measurements, Options, diagnose, diagnose_with};
 
-const POSE: Kind = Kind::Pose { orientation: true };
-
-/// Roughly normal, standard deviation 1.
-pub(super) fn normal(generator: &mut Rng) -> f64 {
-    (0..12).map(|_| generator.unit()).sum::<f64>() - 6.0
-}
-
-/// `poses` poses, each measured twice, of a plant whose joint compliances are raised by `added`,
-/// with noise of `sd` m and rad.
-pub(super) fn data(poses: usize, added: [f64; 3], sd: f64, seed: u64) -> Measurements {
-    let mut plant = bent();
-    for (joint, more) in plant.joints.iter_mut().zip(added) {
-        joint.compliance += more;
-    }
-    let mut generator = Rng::new(seed, Stream::Folds);
-    let mut rows = Vec::new();
-    for group in 0..poses {
-        let mut any = |scale: f64| scale * normal(&mut generator);
-        let q = [any(1.0), any(0.7), any(0.7)];
-        let w = Vector6::new(any(300.0), any(300.0), any(300.0) - 500.0, any(20.0), 0.0, any(20.0));
-        for _ in 0..2 {
-            let mut row = Row { group, line: rows.len() as u64 + 2, ..row(&q, w) };
-            let exact = simulate(&plant, &row, POSE).unwrap().reading().vector();
-            row.measured = exact.map(|x| x + sd * normal(&mut generator));
-            rows.push(row);
-        }
-    }
-    table(rows, POSE)
-}
+use crate::fixture::{bent, rigid, row, springy, table};
+use crate::noisy::{POSE, data, normal};
 
 fn found(added: [f64; 3], sd: f64, options: &Options) -> Diagnosis {
     diagnose(&bent(), &data(20, added, sd, 11), options).unwrap()
@@ -183,7 +162,7 @@ fn unknown_frames_and_markers_are_fitted_and_never_findings() {
     // The same arm, measured again: predicted with frames and marker as they were fitted.
     let again = found.explanation.predict(&data).unwrap();
     assert!(again.inside.iter().all(|inside| *inside));
-    let rms = crate::gap::Statistics::of(&again.after).position_rms;
+    let rms = stiffarm_gap::gap::Statistics::of(&again.after).position_rms;
     assert!(rms < 2.0 * 1e-5 * 3.0_f64.sqrt(), "{rms}");
     assert_eq!(found.explanation.found()[0].spot.place, Place::Joint(2));
     let mut far = data.clone();
@@ -232,10 +211,10 @@ fn a_gap_that_asks_for_less_than_rigid_gives_no_finding() {
     // The measurement mirrored about the rigid arm: it rises under load.
     let effects = Some(vec!["joint_compliance".to_owned()]);
     let options = Options { effects, ..Options::default() };
-    let problem = Problem::new(&arm, &raised, &options).unwrap();
-    let gaps = Model::nominal(&problem).predict(&problem, None).unwrap().gaps;
-    for (row, gap) in raised.rows.iter_mut().zip(gaps) {
-        row.measured -= 2.0 * gap;
+    for k in 0..raised.rows.len() {
+        let predicted = simulate(&arm, &raised.rows[k], POSE).unwrap().reading();
+        let gap = row_gap(&raised, &raised.rows[k], &predicted);
+        raised.rows[k].measured -= 2.0 * gap;
     }
     let d = diagnose(&arm, &raised, &options).unwrap();
     assert!(d.findings.is_empty(), "{:?}", d.findings);
@@ -358,57 +337,13 @@ fn the_json_is_the_formats() {
     let options = Options { version: "0.1.0".to_owned(), ..Options::default() };
     let d = found([0.0, 4e-6, 0.0], 2e-5, &options);
     let text = serde_json::to_string(&d).unwrap();
-    let keys = [
-        "stiffarm",
-        "robot",
-        "measurements",
-        "held_out",
-        "folds",
-        "grouped_by",
-        "gap",
-        "before",
-        "position_rms",
-        "position_p95",
-        "position_max",
-        "rotation_rms",
-        "after",
-        "noise",
-        "from",
-        "where",
-        "place",
-        "share",
-        "findings",
-        "effect",
-        "place",
-        "parameters",
-        "name",
-        "value",
-        "unit",
-        "ci95",
-        "held_out",
-        "before",
-        "after",
-        "shrink",
-        "shrink_ci95",
-        "p_value",
-        "stability",
-        "alternatives",
-        "effect",
-        "place",
-        "held_out_after",
-        "separable",
-        "to_separate",
-        "cannot_see",
-        "unexplained",
-        "present",
-        "position_rms",
-        "where",
-        "depends_on",
-        "by",
-        "covers",
-    ];
+    let keys = "stiffarm robot measurements held_out folds grouped_by gap before position_rms position_p95 \
+                position_max rotation_rms after noise from where place share findings effect place parameters name \
+                value unit ci95 held_out before after shrink shrink_ci95 p_value stability alternatives effect place \
+                held_out_after separable to_separate cannot_see unexplained present position_rms where depends_on by \
+                covers";
     let mut from = 0;
-    for key in keys {
+    for key in keys.split_whitespace() {
         let at = text[from..].find(&format!("\"{key}\":"));
         from += at.unwrap_or_else(|| panic!("{key} after {} in {text}", &text[..from]));
     }
@@ -433,7 +368,7 @@ fn extreme_numbers_give_an_error_or_finite_numbers() {
     let good = data(2, [0.0, 4e-6, 0.0], 1e-5, 1);
     for extreme in [1e-160, 1e155, f64::MAX] {
         for what in 0..4 {
-            for arm in [bent(), crate::fixture::rigid()] {
+            for arm in [bent(), rigid()] {
                 let mut data = good.clone();
                 let row = &mut data.rows[2];
                 match what {
