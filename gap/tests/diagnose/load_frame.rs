@@ -10,7 +10,7 @@ use stiffarm_plant::{Noise, Plant};
 use crate::fixture::springy;
 use crate::noisy::POSE;
 
-/// An arm whose base leans in the measuring frame.
+/// As a rotation vector, rad.
 const LEANS: [f64; 3] = [0.03, -0.02, 0.8];
 
 fn turned(turn: &Rotation3<f64>, w: &Vector6<f64>) -> Vector6<f64> {

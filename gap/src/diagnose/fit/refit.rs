@@ -70,8 +70,8 @@ pub(crate) fn refit_below(
     refit_until(problem, model, near, weights, [below, last])
 }
 
-/// The same as far as sizes are compared, to a thousandth: where each step falls by a thirtieth less than the one before,
-/// what is left to fall is half of that.
+/// The same, until a step promises less than a thirty-thousandth of the squares. Sizes are compared to a thousandth, which is
+/// two of the squares: where each step promises a sixtieth less than the one before, no more is left.
 pub(crate) fn refit_roughly(
     problem: &Problem<'_>,
     model: Model,
