@@ -5,6 +5,7 @@ use stiffarm_gap::rng::{Rng, Stream};
 use stiffarm_gap::simulate::simulate;
 use stiffarm_gap::{Options, diagnose};
 
+use super::only;
 use crate::fixture::bent;
 use crate::noisy::{POSE, data, normal};
 
@@ -23,8 +24,7 @@ fn rows_that_do_not_fit_are_named_and_leave_the_rest_as_it_is() {
     let far = |row: &LeftOut| row.position.unwrap();
     assert!((far(first) - 5e-3).abs() < 1e-4 && (far(second) - 4e-3).abs() < 1e-4);
     for d in [&without, &with] {
-        let [finding] = &d.findings[..] else { panic!("{:?}", d.findings) };
-        assert_eq!((&*finding.effect, finding.place.as_str()), ("joint_compliance", "joint 2"));
+        let finding = only(d, ("joint_compliance", "joint 2"));
         let [low, high] = finding.parameters[0].ci95;
         assert!((low..=high).contains(&4e-6), "{low} {high}");
     }
@@ -40,8 +40,7 @@ fn rows_that_do_not_fit_are_named_and_leave_the_rest_as_it_is() {
 fn clean_data_leave_nothing_to_tell() {
     let clean = data(20, [0.0, 4e-6, 0.0], 0.0, 11);
     let found = diagnose(&bent(), &clean, &Options::default()).unwrap();
-    let [finding] = &found.findings[..] else { panic!("{:?}", found.findings) };
-    assert_eq!((&*finding.effect, finding.place.as_str()), ("joint_compliance", "joint 2"));
+    only(&found, ("joint_compliance", "joint 2"));
     assert!(found.left_out.is_empty() && found.residual.is_none(), "{:?}", found.left_out);
     let [low, high] = found.gap.shrink.shrink_ci95;
     assert!(low > 1.0 - 1e-6 && high <= 1.0, "{low} {high}");
@@ -92,8 +91,7 @@ fn ordinary_calibration_is_one_finding_or_fitted_along() {
         row.measured = exact.reading().vector().map(|x| x + 2e-5 * normal(&mut rng));
     }
     let found = diagnose(&bent(), &data, &Options::default()).unwrap();
-    let [finding] = &found.findings[..] else { panic!("{:?}", found.findings) };
-    assert_eq!((&*finding.effect, finding.place.as_str()), ("geometry", "arm"));
+    only(&found, ("geometry", "arm"));
     assert!(found.gap.after.position_rms < 1.2 * found.gap.noise.position_rms);
     let mut along = Options::default();
     along.fit_along(&["geometry".to_owned()]).unwrap();

@@ -38,10 +38,9 @@ fn measured(rows: &Measurements, as_measured: bool, seed: u64) -> Measurements {
 fn found(as_measured: bool, seed: u64) -> Diagnosed {
     let design =
         Design { shape: Shape::Force, poses: 40, repeats: 1, payload: 20.0, kind: POSE, seed };
-    let rows = design.rows(&springy());
     let nuisances = vec![Nuisance::BaseFrame];
     let options = Options { nuisances, ..Options::default() };
-    let data = measured(&rows, as_measured, seed);
+    let data = measured(&design.rows(&springy()), as_measured, seed);
     diagnose_with(&springy(), &data, &options, &|_| {}).unwrap()
 }
 

@@ -6,7 +6,7 @@ mod promise;
 mod refined;
 
 use nalgebra::{Isometry3, Vector3, Vector6};
-use stiffarm_gap::diagnose::{CannotSee, Diagnosis, Gauge, Nuisance, Stage};
+use stiffarm_gap::diagnose::{CannotSee, Diagnosis, Finding, Gauge, Nuisance, Stage};
 use stiffarm_gap::effects::Place;
 use stiffarm_gap::gap::row_gap;
 use stiffarm_gap::measurement::{Kind, Row};
@@ -20,6 +20,14 @@ use crate::noisy::{POSE, data, normal};
 
 fn found(added: [f64; 3], sd: f64, options: &Options) -> Diagnosis {
     diagnose(&bent(), &data(20, added, sd, 11), options).unwrap()
+}
+
+/// The only finding, which is this effect at this place.
+#[track_caller]
+fn only<'d>(found: &'d Diagnosis, what: (&str, &str)) -> &'d Finding {
+    let [finding] = &found.findings[..] else { panic!("{:?}", found.findings) };
+    assert_eq!((&*finding.effect, finding.place.as_str()), what);
+    finding
 }
 
 fn finite(value: &serde_json::Value) -> bool {
@@ -37,8 +45,7 @@ fn finite(value: &serde_json::Value) -> bool {
 #[test]
 fn a_soft_joint_is_found_with_its_size() {
     let d = found([0.0, 4e-6, 0.0], 2e-5, &Options::default());
-    let [finding] = &d.findings[..] else { panic!("{:?}", d.findings) };
-    assert_eq!((&*finding.effect, finding.place.as_str()), ("joint_compliance", "joint 2"));
+    let finding = only(&d, ("joint_compliance", "joint 2"));
     let [low, high] = finding.parameters[0].ci95;
     assert!(low < 4e-6 && 4e-6 < high && high - low < 2e-7, "{low} {high}");
     // The least that 999 drawn patterns can tell.
@@ -139,8 +146,7 @@ fn unknown_frames_and_markers_are_fitted_and_never_findings() {
         Options { nuisances, noise_position: noise, noise_rotation: noise, ..Options::default() };
     let found = diagnose_with(&bent(), &data, &options, &|_| {}).unwrap();
     let d = &found.diagnosis;
-    let [finding] = &d.findings[..] else { panic!("{:?}", d.findings) };
-    assert_eq!((&*finding.effect, finding.place.as_str()), ("joint_compliance", "joint 2"));
+    let finding = only(d, ("joint_compliance", "joint 2"));
     assert!((finding.parameters[0].value - 6e-6).abs() < 5e-7);
     let offset = &d.nuisances[2];
     assert_eq!(offset.name, "smr");
@@ -188,8 +194,7 @@ fn a_slipped_reflector_is_found_before_it_invents_effects() {
         }
     }
     let d = diagnose(&bent(), &data, &Options::default()).unwrap();
-    let [finding] = &d.findings[..] else { panic!("{:?}", d.findings) };
-    assert_eq!((&*finding.effect, finding.place.as_str()), ("slip", "tool"));
+    let finding = only(&d, ("slip", "tool"));
     assert_eq!((finding.parameters[0].name.as_ref(), finding.parameters[0].value), ("after", 25.0));
     assert!((finding.parameters[1].value - 2e-4).abs() < 3e-5, "{:?}", finding.parameters);
 }
@@ -284,8 +289,7 @@ fn rows_weigh_by_their_own_precision() {
     precise.poses = 30;
     let [told, mixed, precise] = [told, mixed, precise].map(|data| {
         let d = diagnose(&bent(), &data, &Options::default()).unwrap();
-        let [finding] = &d.findings[..] else { panic!("{:?}", d.findings) };
-        assert_eq!((&*finding.effect, finding.place.as_str()), ("joint_compliance", "joint 2"));
+        let finding = only(&d, ("joint_compliance", "joint 2"));
         let [low, high] = finding.parameters[0].ci95;
         assert!(low < 4e-6 && 4e-6 < high, "{low} {high}");
         high - low
