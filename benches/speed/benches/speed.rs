@@ -16,8 +16,8 @@ use std::hint::black_box;
 
 use stiffarm_bench::arms::{self, textbook};
 use stiffarm_bench::ideal;
-use stiffarm_bench::lanes::{by_eight, by_four};
 use stiffarm_bench::timing::{Candidate, print};
+use stiffarm_bench_arms::lanes::{by_eight, by_four};
 use stiffarm_draws::Draws;
 use stiffarm_kernels::batch::{self, Layout, Wrenches, evaluate, evaluate_parallel};
 use stiffarm_kernels::generic;

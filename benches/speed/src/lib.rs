@@ -3,5 +3,4 @@
 
 pub mod arms;
 pub mod ideal;
-pub mod lanes;
 pub mod timing;

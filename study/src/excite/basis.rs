@@ -9,9 +9,8 @@ const APART: f64 = 1e-9;
 pub struct Basis(Vec<Vec<f64>>);
 
 impl Basis {
-    /// Of what these columns of so many rows span.
-    pub fn of(rows: usize, columns: Vec<Vec<f64>>) -> Basis {
-        debug_assert!(columns.iter().all(|column| column.len() == rows));
+    /// Of what these columns, of equal length, span.
+    pub fn of(columns: Vec<Vec<f64>>) -> Basis {
         let largest = columns.iter().map(|column| norm(column)).fold(0.0, f64::max);
         let mut basis = Basis::default();
         for column in columns {
@@ -55,7 +54,7 @@ mod tests {
     fn what_is_spanned_is_not_beyond() {
         let columns =
             vec![vec![1.0, 2.0, 0.0, 0.0], vec![2.0, 4.0, 0.0, 0.0], vec![0.0, 1.0, 1.0, 0.0]];
-        let basis = Basis::of(4, columns);
+        let basis = Basis::of(columns);
         assert_eq!(basis.0.len(), 2);
         assert!(norm(&basis.beyond(vec![3.0, 7.0, 1.0, 0.0])) < 1e-14);
         let beyond = basis.beyond(vec![1.0, 2.0, 0.0, 5.0]);

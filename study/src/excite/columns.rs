@@ -140,7 +140,7 @@ impl Columns {
                 for column in &mut columns {
                     column.iter_mut().enumerate().for_each(|(k, x)| *x /= sizes[k % sizes.len()]);
                 }
-                Basis::of(nominal.len(), columns)
+                Basis::of(columns)
             }
         };
         let mut columns = Columns { beyond: Vec::new(), whole: Vec::new(), of: Vec::new() };
@@ -180,7 +180,7 @@ impl Columns {
                 self.beyond.iter().zip(&self.of).filter(move |(_, of)| **of == which)
             };
             let others = of(1 - one).map(|(column, _)| column.clone()).collect();
-            let basis = Basis::of(self.beyond[0].len(), others);
+            let basis = Basis::of(others);
             // The least that any of its forms stands apart.
             let left: Vec<DVector<f64>> = of(one)
                 .map(|(column, _)| DVector::from_vec(basis.beyond(column.clone())))

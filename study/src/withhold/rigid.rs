@@ -36,7 +36,7 @@ impl Rigid {
         for column in &mut columns {
             column.iter_mut().enumerate().for_each(|(k, x)| *x /= noise[k % noise.len()]);
         }
-        let basis = Basis::of(states.len() * arm.dof(), columns);
+        let basis = Basis::of(columns);
         Rigid { instants, basis, noise: noise.to_vec() }
     }
 

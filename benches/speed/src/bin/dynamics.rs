@@ -7,8 +7,8 @@ use std::path::Path;
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use stiffarm_bench::arms::{self, FILES, textbook};
-use stiffarm_bench::lanes::by_eight;
 use stiffarm_bench::timing::{Candidate, medians};
+use stiffarm_bench_arms::lanes::by_eight;
 use stiffarm_codegen::emit::{COptions, Precision, Sines};
 use stiffarm_codegen::program::{Formulas, Module, Term};
 use stiffarm_codegen::robot::Robot;

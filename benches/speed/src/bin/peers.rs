@@ -6,8 +6,8 @@ use std::path::Path;
 
 use stiffarm_bench::arms::kuka_kr240::{fused, plain};
 use stiffarm_bench::arms::textbook;
-use stiffarm_bench::lanes::by_eight;
 use stiffarm_bench::timing::{Candidate, medians};
+use stiffarm_bench_arms::lanes::by_eight;
 use stiffarm_draws::Draws;
 use stiffarm_kernels::{Output, Pose};
 

@@ -1,26 +1,26 @@
 //! Frames in closed form, each exact where the others are; joints whose reading is not known, in their rows.
 
-use nalgebra::{Isometry3, Matrix3, Point3, Rotation3, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, Point3, Rotation3, UnitQuaternion, Vector3};
 use stiffarm_kernels::Motion;
 
-use super::{Fit, Row};
+use super::{Fit, Posture, Row};
 use crate::diagnose::rigid;
 
 impl Fit {
-    /// Frames, each exact where the others are.
-    pub(super) fn align(&mut self, turns: usize) {
-        let mut poses = self.poses();
+    /// Frames, each exact where the others are; the arm in every row.
+    pub(super) fn align(&mut self, turns: usize) -> Vec<Posture> {
+        let mut postures = self.postures();
         let free = self.rows.iter().any(|row| row.free.is_some());
         for turn in 0..turns {
             for session in 0..self.at.bases.len() {
                 // Rows whose joint is free come in when the others have told where the base is.
-                let of = |(row, _): &(&Row, &Isometry3<f64>)| {
+                let of = |(row, _): &(&Row, &Posture)| {
                     row.session == session && (turn > 0 || row.free.is_none())
                 };
-                let pairs = self.rows.iter().zip(&poses).filter(of);
+                let pairs = self.rows.iter().zip(&postures).filter(of);
                 let (from, to): (Vec<_>, Vec<_>) = pairs
-                    .map(|(row, pose)| {
-                        ((pose * Point3::from(self.at.points[row.point])).coords, row.at)
+                    .map(|(row, posture)| {
+                        ((posture.tool * Point3::from(self.at.points[row.point])).coords, row.at)
                     })
                     .unzip();
                 if from.len() >= 3 {
@@ -28,10 +28,11 @@ impl Fit {
                 }
             }
             let mut sums = vec![(Vector3::zeros(), 0.0); self.at.points.len()];
-            for (row, pose) in self.rows.iter().zip(&poses) {
-                let at = self.at.bases[row.session].inverse() * Point3::from(row.at);
-                let sum = &mut sums[row.point];
-                *sum = (sum.0 + (pose.inverse() * at).coords, sum.1 + 1.0);
+            for (row, posture) in self.rows.iter().zip(&postures) {
+                let at = self.at.bases[row.session].inverse_transform_point(&Point3::from(row.at));
+                let (sum, rows) = &mut sums[row.point];
+                *sum += posture.tool.inverse_transform_point(&at).coords;
+                *rows += 1.0;
             }
             for (point, (sum, rows)) in self.at.points.iter_mut().zip(sums) {
                 if rows > 0.0 {
@@ -40,14 +41,14 @@ impl Fit {
             }
             if free {
                 self.free_joints();
-                poses = self.poses();
+                postures = self.postures();
             }
         }
         if self.has_rotation {
             let mut sums = vec![Matrix3::zeros(); self.at.tools.len()];
-            for (row, pose) in self.rows.iter().zip(&poses) {
-                let turn =
-                    (self.at.bases[row.session].rotation * pose.rotation).inverse() * row.turn;
+            for (row, posture) in self.rows.iter().zip(&postures) {
+                let turn = (self.at.bases[row.session].rotation * posture.tool.rotation).inverse()
+                    * row.turn;
                 sums[row.session] += turn.to_rotation_matrix().matrix();
             }
             for (tool, sum) in self.at.tools.iter_mut().zip(sums) {
@@ -55,6 +56,7 @@ impl Fit {
                 *tool = UnitQuaternion::from_rotation_matrix(&mean);
             }
         }
+        postures
     }
 
     /// Turns each free joint to where its row's point is nearest to what was measured: on a circle the
@@ -63,10 +65,11 @@ impl Fit {
         for number in 0..self.rows.len() {
             let Some(joint) = self.rows[number].free else { continue };
             let row = &self.rows[number];
-            let (axes, pose) = self.axes(&self.joints(number));
-            let (along, origin) = axes[joint];
-            let is = (pose * Point3::from(self.at.points[row.point])).coords - origin;
-            let to = (self.at.bases[row.session].inverse() * Point3::from(row.at)).coords - origin;
+            let posture = self.posture(number);
+            let [along, origin] = self.axis(&posture, joint);
+            let is = (posture.tool * Point3::from(self.at.points[row.point])).coords - origin;
+            let base = &self.at.bases[row.session];
+            let to = base.inverse_transform_point(&Point3::from(row.at)).coords - origin;
             let by = match self.arm.joints[joint].motion {
                 Motion::Revolute => {
                     let flat = |v: Vector3<f64>| v - along * along.dot(&v);

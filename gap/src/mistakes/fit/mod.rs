@@ -119,8 +119,12 @@ struct Unknowns {
     turned: Vec<f64>,
 }
 
-/// Direction of a joint's axis, and a point on it, base frame.
-type Axis = (Vector3<f64>, Vector3<f64>);
+/// The arm in a row as the springs give: the joints' values, the chain's frames and the tool, base frame.
+struct Posture {
+    q: Vec<f64>,
+    frames: Vec<Isometry3<f64>>,
+    tool: Isometry3<f64>,
+}
 
 /// The gap of a row: at the point, and of the rotation.
 type Gap = (Vector3<f64>, Vector3<f64>);
@@ -207,9 +211,8 @@ impl Fit {
 
     /// With the frames alone in closed form.
     pub(super) fn framed(mut self, turns: usize) -> Left {
-        self.align(turns);
-        let gaps = self.gaps();
-        self.left(&gaps)
+        let postures = self.align(turns);
+        self.left(&self.gaps(&postures))
     }
 
     /// Judged by this part of the rows, those that fit best.
@@ -224,20 +227,23 @@ impl Fit {
 
     /// With all unknowns: what is left, and by how much more the open amounts are off.
     pub(super) fn refined(mut self) -> (Left, Vec<f64>) {
-        self.align(TURNS);
-        let mut gaps = self.gaps();
+        let mut postures = self.align(TURNS);
+        let mut gaps = self.gaps(&postures);
         let mut damping = 1e-6;
         for _ in 0..STEPS {
             let scale = self.scale(&gaps);
             let cost = self.cost(&gaps, scale);
-            let Some(step) = self.step(&gaps, scale, damping) else { break };
+            let Some(step) = self.step(&postures, &gaps, scale, damping) else {
+                break;
+            };
             let before = self.at.clone();
             self.advance(&step);
             self.free_joints();
-            let next = self.gaps();
+            let moved = self.postures();
+            let next = self.gaps(&moved);
             let after = self.cost(&next, scale);
             if after.is_finite() && after < cost {
-                (gaps, damping) = (next, damping * 0.1);
+                (postures, gaps, damping) = (moved, next, damping * 0.1);
                 if after > SETTLED * cost && self.scale(&gaps) > SETTLED * scale {
                     break;
                 }
@@ -274,33 +280,35 @@ impl Fit {
         q
     }
 
-    /// The tool in every row, base frame.
-    fn poses(&self) -> Vec<Isometry3<f64>> {
-        (0..self.rows.len()).map(|number| self.arm.pose(&self.joints(number))).collect()
+    fn posture(&self, number: usize) -> Posture {
+        let q = self.joints(number);
+        let frames = self.arm.frames(&q);
+        Posture { q, tool: frames[self.arm.dof()] * self.arm.tool, frames }
     }
 
-    /// Axis and a point on it of every joint, and the tool, base frame.
-    fn axes(&self, q: &[f64]) -> (Vec<Axis>, Isometry3<f64>) {
-        let frames = self.arm.frames(q);
+    fn postures(&self) -> Vec<Posture> {
+        (0..self.rows.len()).map(|number| self.posture(number)).collect()
+    }
+
+    /// Direction of a joint's axis, and a point on it, base frame.
+    fn axis(&self, posture: &Posture, joint: usize) -> [Vector3<f64>; 2] {
         let first = usize::from(self.arm.convention == Convention::Modified);
-        let axis =
-            |frame: &Isometry3<f64>| (frame.rotation * Vector3::z(), frame.translation.vector);
-        let axes = frames[first..][..self.arm.dof()].iter().map(axis).collect();
-        (axes, frames[self.arm.dof()] * self.arm.tool)
+        let frame = &posture.frames[first + joint];
+        [frame.rotation * Vector3::z(), frame.translation.vector]
     }
 
-    fn gaps(&self) -> Vec<Gap> {
-        let gap = |(row, pose): (&Row, Isometry3<f64>)| {
+    fn gaps(&self, postures: &[Posture]) -> Vec<Gap> {
+        let gap = |(row, Posture { tool, .. }): (&Row, &Posture)| {
             let base = &self.at.bases[row.session];
-            let at = base * pose * Point3::from(self.at.points[row.point]);
-            let turned = base.rotation * pose.rotation * self.at.tools[row.session];
+            let at = base * (tool * Point3::from(self.at.points[row.point]));
+            let turned = base.rotation * tool.rotation * self.at.tools[row.session];
             let turn = match self.has_rotation {
                 true => (row.turn * turned.inverse()).scaled_axis(),
                 false => Vector3::zeros(),
             };
             (row.at - at.coords, turn)
         };
-        self.rows.iter().zip(self.poses()).map(gap).collect()
+        self.rows.iter().zip(postures).map(gap).collect()
     }
 
     fn size(&self, gap: &Gap) -> f64 {

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector, Point3, UnitQuaternion, Vector3, Vector6};
 use stiffarm_kernels::Motion;
 
-use super::{FLAT, Fit, Gap, NO_SPRING, ZERO};
+use super::{FLAT, Fit, Gap, NO_SPRING, Posture, ZERO};
 
 /// Prior scale of an amount, rad, m or 1: as good as none.
 const ANY: f64 = 10.0;
@@ -22,19 +22,23 @@ impl Fit {
     }
 
     /// A step of least squares.
-    pub(super) fn step(&self, gaps: &[Gap], scale: f64, damping: f64) -> Option<DVector<f64>> {
+    pub(super) fn step(
+        &self,
+        postures: &[Posture],
+        gaps: &[Gap],
+        scale: f64,
+        damping: f64,
+    ) -> Option<DVector<f64>> {
         let (dof, [bases, points, tools]) = (self.arm.dof(), self.frames());
         let (first, steps) = (self.first_amount(), self.steps_of_entries());
         let count = first + steps.len();
         let (mut normal, mut right) = (DMatrix::zeros(count, count), DVector::zeros(count));
         let mut columns: Vec<(usize, Vector6<f64>)> = Vec::new();
         let mut turns: Vec<Vector6<f64>> = Vec::new();
-        for (number, (row, gap)) in self.rows.iter().zip(gaps).enumerate() {
-            let q = self.joints(number);
-            let (axes, pose) = self.axes(&q);
+        for ((row, gap), posture) in self.rows.iter().zip(gaps).zip(postures) {
             let base = &self.at.bases[row.session];
-            let turn = base.rotation * pose.rotation;
-            let at = (pose * Point3::from(self.at.points[row.point])).coords;
+            let turn = base.rotation * posture.tool.rotation;
+            let at = (posture.tool * Point3::from(self.at.points[row.point])).coords;
             let out = base.rotation * at;
             columns.clear();
             turns.clear();
@@ -48,10 +52,11 @@ impl Fit {
                     columns.push((points + 3 * row.session + k, stacked(Vector3::zeros(), about)));
                 }
             }
-            for (j, (along, origin)) in axes.iter().enumerate() {
+            for j in 0..dof {
+                let [along, origin] = self.axis(posture, j);
                 let twist = match self.arm.joints[j].motion {
-                    Motion::Revolute => stacked(along.cross(&(at - origin)), *along),
-                    Motion::Prismatic => stacked(*along, Vector3::zeros()),
+                    Motion::Revolute => stacked(along.cross(&(at - origin)), along),
+                    Motion::Prismatic => stacked(along, Vector3::zeros()),
                 };
                 let twist = rotated(&base.rotation, &twist);
                 turns.push(twist);
@@ -62,7 +67,7 @@ impl Fit {
                     columns.push((tools + dof + j, twist * (gives * row.torque[j])));
                 }
             }
-            let amounts = self.by_amounts(row, &q, &steps, &turns);
+            let amounts = self.by_amounts(row, &posture.q, &steps, &turns);
             columns.extend(amounts.enumerate().map(|(k, column)| (first + k, column)));
             let mut gap = stacked(gap.0, gap.1);
             let weight =

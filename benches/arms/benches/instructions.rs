@@ -2,20 +2,23 @@
 //! shows.
 //!
 //! ```text
-//! cargo bench -p stiffarm-bench --bench instructions               # compares with instructions.txt
-//! UPDATE=1 cargo bench -p stiffarm-bench --bench instructions      # rewrites it
+//! cargo bench -p stiffarm-bench-arms --bench instructions               # compares with instructions.txt
+//! UPDATE=1 cargo bench -p stiffarm-bench-arms --bench instructions      # rewrites it
 //! ```
 //!
 //! Fails where a kernel takes 5 % more than is written there. The counts belong to one compiler and to
 //! plain x86-64; with another one, or without valgrind, it says so and compares nothing, which is a failure
 //! where `CI=true`.
 
+#![warn(clippy::all)]
+
 use std::hint::black_box;
 use std::path::Path;
 use std::process::{Command, ExitCode};
 
-use stiffarm_bench::arms;
-use stiffarm_bench::lanes::by_four;
+use rayon::prelude::*;
+use stiffarm_bench_arms as arms;
+use stiffarm_bench_arms::lanes::by_four;
 use stiffarm_draws::Draws;
 use stiffarm_kernels::{Inverse as _, Pose, SetPoints};
 
@@ -184,13 +187,14 @@ fn instructions(name: &str, calls: usize) -> Option<u64> {
 
 /// The table as it is now.
 fn count() -> Option<String> {
-    let mut table = format!("# {}, instructions per call\n", stiffarm_bench::arms::RUSTC);
-    for (name, _) in works() {
+    let names: Vec<&str> = works().iter().map(|(name, _)| *name).collect();
+    let line = |name: &&str| {
         let (none, all) = (instructions(name, 0)?, instructions(name, CALLS)?);
         let per_call = (all - none) as f64 / CALLS as f64;
-        table.push_str(&format!("{name:<44} {per_call:>6.0}\n"));
-    }
-    Some(table)
+        Some(format!("{name:<44} {per_call:>6.0}\n"))
+    };
+    let lines: String = names.par_iter().map(line).collect::<Option<_>>()?;
+    Some(format!("# {}, instructions per call\n{lines}", arms::RUSTC))
 }
 
 /// Lines that are more than 5 % above the snapshot's.
