@@ -125,7 +125,7 @@ pub fn worst(doubts: impl Iterator<Item = (usize, Doubt)>) -> Option<usize> {
 
 #[cfg(test)]
 mod tests {
-    use std::sync::Arc;
+    use std::sync::{Arc, LazyLock};
 
     use nalgebra::DMatrix;
 
@@ -134,31 +134,24 @@ mod tests {
     use crate::constants::SIGNIFICANT;
     use crate::products::Products;
     use crate::rng::{Rng, Stream};
+    use crate::screen::Usual;
 
     const BLOCKS: usize = 40;
     const ROWS: usize = 5;
 
-    /// A column of its own.
-    struct Column;
-
-    impl Columns for Column {
-        fn least(&self) -> &[f64] {
-            &[f64::NEG_INFINITY]
-        }
-
-        fn held(&self) -> &[f64] {
-            &[0.0]
-        }
-
-        fn multiplicity(&self) -> usize {
-            1
+    impl Columns for Usual {
+        fn usual(&self) -> &Usual {
+            self
         }
     }
 
-    const COLUMNS: [Column; 12] = [const { Column }; 12];
+    /// Columns of their own, of which anything is usual.
+    static COLUMNS: LazyLock<Vec<Usual>> = LazyLock::new(|| {
+        vec![Usual { least: vec![f64::NEG_INFINITY], held: vec![0.0], multiplicity: 1 }; 12]
+    });
 
     /// Normal noise whose size differs from block to block, with so much of the first column, beside a mean.
-    fn asked(seed: u64, first: f64) -> Asked<'static, Column> {
+    fn asked(seed: u64, first: f64) -> Asked<'static, Usual> {
         let mut rng = Rng::new(seed, Stream::Noise);
         let count = COLUMNS.len();
         let mut total = Products::zeros(1, &[1; 12]);

@@ -43,6 +43,6 @@ pub use quantile::{ascending, middle, percentile};
 pub use rank::Ranked;
 pub use resample::{drawn, interval, students_t, two_sided};
 pub use score::{Own, Score, price};
-pub use screen::{Columns, Screen};
+pub use screen::{Columns, Screen, Usual};
 pub use select::{Observations, Terms, Weighed, against, costs, pruned};
 pub use signs::{SignFlips, Signs, deviate, unit};

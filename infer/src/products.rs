@@ -73,7 +73,7 @@ impl Products {
     /// Holds the candidates' numbers: the products of a measurement of each as 0.
     pub fn hold(&mut self, candidates: &[impl Columns]) {
         for (own, candidate) in Arc::make_mut(&mut self.xx).iter_mut().zip(candidates) {
-            let squares = candidate.held().iter().map(|held| held * held);
+            let squares = candidate.usual().held.iter().map(|held| held * held);
             // What is added once, whatever the numbers, is held to nothing.
             let all = squares.chain(candidate.is_linearized().then_some(0.0));
             own.set_diagonal(&DVector::from_iterator(candidate.columns(), all));

@@ -45,9 +45,9 @@ impl<C: Columns> Screen<'_, C> {
                 let it = &self.candidates[candidate];
                 let own = || {
                     let own = self.own(candidate);
-                    own.price(it.held(), &score.values, scale.count(), variance)
+                    own.price(&it.usual().held, &score.values, scale.count(), variance)
                 };
-                let cost = cost.unwrap_or_else(|| Scale::cost(own(), it.multiplicity()));
+                let cost = cost.unwrap_or_else(|| Scale::cost(own(), it.usual().multiplicity));
                 let gain = score.drop / variance - cost;
                 Ranked { candidate, score, cost, gain }
             })
@@ -62,7 +62,7 @@ impl<C: Columns> Screen<'_, C> {
     /// model with a normal prior, MacKay 1992).
     fn tolerated(&self, candidate: usize, variance: impl Fn(f64, usize) -> f64) -> (Score, f64) {
         let own = self.own(candidate);
-        let held = DVector::from_column_slice(self.candidates[candidate].held());
+        let held = DVector::from_column_slice(&self.candidates[candidate].usual().held);
         let scaled = |m: DMatrix<f64>| m.map_with_location(|r, c, x| x / (held[r] * held[c]));
         let size = held.len();
         let data = scaled(&own.xx - own.zx.tr_mul(&own.zx)) - DMatrix::identity(size, size);

@@ -125,7 +125,7 @@ fn solve(
 ) -> (DVector<f64>, usize) {
     let sizes = sizes.diagonal();
     if !of.is_linearized() {
-        return Squares { matrix: &v, right: &u, sizes, decided: OWN }.solve(of.least());
+        return Squares { matrix: &v, right: &u, sizes, decided: OWN }.solve(&of.usual().least);
     }
     // The last column is added once, whatever the values of the others.
     let last = v.ncols() - 1;
@@ -133,7 +133,7 @@ fn solve(
     let (matrix, right) = (v.view((0, 0), (last, last)).into_owned(), u.rows(0, last).into_owned());
     let sizes = sizes.rows(0, last).into_owned();
     let squares = Squares { matrix: &matrix, right: &right, sizes, decided: OWN };
-    let (values, rank) = squares.solve(of.least());
+    let (values, rank) = squares.solve(&of.usual().least);
     (values.push(1.0), rank)
 }
 
@@ -158,7 +158,7 @@ impl<C: Columns> Screen<'_, C> {
     /// sum's square is the fall. `left` is [`Screen::left_by_block`].
     pub fn shares(&self, candidate: usize, left: &[DVector<f64>]) -> DMatrix<f64> {
         let from = self.at[candidate];
-        let range = from..from + self.candidates[candidate].least().len();
+        let range = from..from + self.candidates[candidate].usual().least.len();
         let t = &self.total;
         let zx = t.zx.columns_range(range.clone());
         let xx = t.xx[candidate].view((0, 0), (range.len(), range.len()));

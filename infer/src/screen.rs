@@ -5,16 +5,20 @@ use super::basis::Basis;
 use super::products::{Products, starts};
 use crate::parallel;
 
+/// What is usual of a candidate, before the data.
+#[derive(Clone, Debug)]
+pub struct Usual {
+    /// Least values of its numbers.
+    pub least: Vec<f64>,
+    /// Inverse of the standard deviation to which each of its numbers is held; 0 where any value is as good.
+    pub held: Vec<f64>,
+    /// Forms and places that it has: each more is one more chance to fit noise.
+    pub multiplicity: usize,
+}
+
 /// What may be added to a model, as far as its columns go.
 pub trait Columns: Sync {
-    /// Least values of its numbers.
-    fn least(&self) -> &[f64];
-
-    /// Inverse of the standard deviation to which each of its numbers is held; 0 where any value is as good.
-    fn held(&self) -> &[f64];
-
-    /// Forms and places that it has: each more is one more chance to fit noise.
-    fn multiplicity(&self) -> usize;
+    fn usual(&self) -> &Usual;
 
     /// Whether its numbers are held to what makers tolerate.
     fn is_tolerated(&self) -> bool {
@@ -28,7 +32,7 @@ pub trait Columns: Sync {
 
     /// Its columns.
     fn columns(&self) -> usize {
-        self.least().len() + usize::from(self.is_linearized())
+        self.usual().least.len() + usize::from(self.is_linearized())
     }
 }
 

@@ -8,7 +8,7 @@ use super::constants::{EXCHANGE, SURE};
 use super::evidence::Scale;
 use super::rank::Ranked;
 use super::score::price;
-use super::screen::{Columns, Screen};
+use super::screen::{Columns, Screen, Usual};
 
 /// Rounds of taking back and exchanging after each addition.
 const MOST_ROUNDS: usize = 12;
@@ -85,10 +85,8 @@ pub struct Terms<'f> {
 pub struct Weighed<'f> {
     /// Its parameters.
     pub values: &'f [f64],
-    /// Inverse of the standard deviation to which each is held.
-    pub held: &'f [f64],
-    /// Its places and forms, each as likely as the others beforehand.
-    pub multiplicity: usize,
+    /// What is usual of them.
+    pub usual: &'f Usual,
     /// Whether it is a maker's tolerance, which costs only what its values are uncertain by.
     pub is_tolerated: bool,
     /// Whether what it does is its values' multiple.
@@ -121,8 +119,8 @@ fn costs_by<O: Observations>(data: &O, now: &O::Fit, basis: &Basis, variance: f6
         let beside = Basis::new(&(own * own.transpose())).t;
         let products = &beside * beside.transpose();
         let values = (!term.is_tolerated).then_some(term.values);
-        let price = price(products, term.held, values, numbers, variance);
-        Scale::cost(price, term.multiplicity)
+        let price = price(products, &term.usual.held, values, numbers, variance);
+        Scale::cost(price, term.usual.multiplicity)
     };
     terms.each.iter().map(cost).collect()
 }

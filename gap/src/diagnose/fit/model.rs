@@ -14,6 +14,7 @@ use crate::diagnose::options::{DiagnoseError, Nuisance};
 use crate::displacement::Displacement;
 use crate::effects::{Depends, Effect, JOINT_SPRING, Known, Place, Scene, Spot, file_name};
 use crate::gap::row_gap;
+use crate::infer::Usual;
 use crate::instrument::View;
 use crate::parallel;
 use crate::simulate::{Actual, Moment, Sim, Site, State};
@@ -23,13 +24,8 @@ use crate::simulate::{Actual, Moment, Sim, Site, State};
 pub(crate) struct Fitted {
     pub(crate) effect: &'static dyn Effect,
     pub(crate) spot: Spot,
-    /// Least physical values.
-    pub(crate) least: Vec<f64>,
     pub(crate) values: Vec<f64>,
-    /// Inverse of the standard deviation to which each is held; 0 where any value is as good.
-    pub(crate) held: Vec<f64>,
-    /// Forms and places that the effect has.
-    pub(crate) multiplicity: usize,
+    pub(crate) usual: Usual,
     /// By how much more evidence it had than any other when last compared; 0 before.
     pub(crate) margin: f64,
 }
@@ -335,7 +331,7 @@ impl Model {
     /// good.
     pub(crate) fn held(&self, problem: &Problem<'_>) -> Vec<f64> {
         let mut held = vec![0.0; Self::nuisances(problem)];
-        held.extend(self.found.iter().flat_map(|f| &f.held));
+        held.extend(self.found.iter().flat_map(|f| &f.usual.held));
         held
     }
 
@@ -390,7 +386,8 @@ impl Model {
             let (step, others) = effects.split_at(found.values.len());
             effects = others;
             let next = found.effect.stepped(found.spot, &found.values, step);
-            found.values = next.iter().zip(&found.least).map(|(v, least)| v.max(*least)).collect();
+            found.values =
+                next.iter().zip(&found.usual.least).map(|(v, least)| v.max(*least)).collect();
         }
         model
     }

@@ -219,7 +219,7 @@ pub(crate) fn step(
 ) -> (DVector<f64>, f64) {
     let (normal, right) = normal_equations(problem, fit, weights);
     let nuisances = Model::nuisances(problem);
-    let each = fit.model.found.iter().flat_map(|f| f.least.iter().zip(&f.values));
+    let each = fit.model.found.iter().flat_map(|f| f.usual.least.iter().zip(&f.values));
     let room = each.map(|(least, value)| least - value);
     let mut least = vec![f64::NEG_INFINITY; nuisances];
     least.extend(room);

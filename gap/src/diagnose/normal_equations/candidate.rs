@@ -9,7 +9,7 @@ use crate::diagnose::prior::Prior;
 use crate::effects::{
     Carrier, Effect, Forms, JOINT_SPRING, Parameter, Place, Quantity, Scene, Spot,
 };
-use crate::infer::constants::LOOSE;
+use crate::infer::{Usual, constants::LOOSE};
 
 /// An effect at a spot, or a probe: some numbers and what they do to the tool.
 #[derive(Clone)]
@@ -17,12 +17,7 @@ pub(crate) struct Candidate {
     pub(crate) source: Source,
     /// Number of parameters.
     pub(crate) size: usize,
-    /// Least physical values of what is added.
-    pub(crate) least: Vec<f64>,
-    /// Inverse of the standard deviation to which each is held; 0 where any value is as good.
-    pub(crate) held: Vec<f64>,
-    /// Forms and places that the effect has: each more is one more chance to fit noise.
-    pub(crate) multiplicity: usize,
+    pub(crate) usual: Usual,
 }
 
 /// Where a candidate's block comes from.
@@ -40,7 +35,7 @@ fn loosely(usual: f64) -> f64 {
 impl Candidate {
     /// What is usual of one of its numbers.
     pub(super) fn set_usual(&mut self, number: usize, usual: f64) {
-        self.held[number] = loosely(usual);
+        self.usual.held[number] = loosely(usual);
     }
 
     /// Every form of the effects at every place.
@@ -109,34 +104,24 @@ impl Candidate {
             (true, Quantity::Angle) => 1.0 / problem.tolerance[1],
             (true, _) => 1.0 / problem.tolerance[0],
         };
-        Candidate {
-            held: parameters.iter().map(held).collect(),
-            size: parameters.len(),
+        let usual = Usual {
             least: parameters.iter().map(|p| p.least).collect(),
-            source: Source::Effect { effect, spot },
+            held: parameters.iter().map(held).collect(),
             multiplicity: forms * effect.places(problem.arm).len() * effect.odds(),
-        }
+        };
+        Candidate { source: Source::Effect { effect, spot }, size: parameters.len(), usual }
     }
 
     /// As a part of a model, with such values; `None` of a probe.
     pub(crate) fn fitted(&self, spot: Spot, values: Vec<f64>) -> Option<Fitted> {
         let (effect, _) = self.effect()?;
-        let (least, held) = (self.least.clone(), self.held.clone());
-        Some(Fitted {
-            effect,
-            spot,
-            least,
-            values,
-            held,
-            margin: 0.0,
-            multiplicity: self.multiplicity,
-        })
+        Some(Fitted { effect, spot, values, usual: self.usual.clone(), margin: 0.0 })
     }
 
     pub(crate) fn probe(probe: Probe, size: usize) -> Candidate {
-        let least = vec![f64::NEG_INFINITY; size];
-        let held = vec![0.0; size];
-        Candidate { source: Source::Probe(probe), size, least, held, multiplicity: 1 }
+        let (least, held) = (vec![f64::NEG_INFINITY; size], vec![0.0; size]);
+        let usual = Usual { least, held, multiplicity: 1 };
+        Candidate { source: Source::Probe(probe), size, usual }
     }
 
     pub(crate) fn block(&self, scene: &Scene<'_>) -> Matrix6xX<f64> {

@@ -9,23 +9,15 @@ use super::candidate::Candidate;
 use super::gather::Gathered;
 use crate::diagnose::data::{Folds, Problem};
 use crate::diagnose::fit::{Bond, Model};
-use crate::infer::{self, Basis, Choice, Columns, Products, starts};
+use crate::infer::{self, Basis, Choice, Columns, Products, Usual, starts};
 use crate::parallel;
 
 /// The candidates against a fitted model.
 pub(crate) type Screen<'c> = infer::Screen<'c, Candidate>;
 
 impl Columns for Candidate {
-    fn least(&self) -> &[f64] {
-        &self.least
-    }
-
-    fn held(&self) -> &[f64] {
-        &self.held
-    }
-
-    fn multiplicity(&self) -> usize {
-        self.multiplicity
+    fn usual(&self) -> &Usual {
+        &self.usual
     }
 
     fn is_tolerated(&self) -> bool {

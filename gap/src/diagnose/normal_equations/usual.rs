@@ -23,7 +23,7 @@ pub(crate) fn scale_elastic(
     model: &Model,
 ) -> Result<(), DiagnoseError> {
     let is_open =
-        |candidate: &Candidate| candidate.effect().is_some() && candidate.held.contains(&0.0);
+        |candidate: &Candidate| candidate.effect().is_some() && candidate.usual.held.contains(&0.0);
     let predicted = model.predict(problem, None)?;
     // A load that is mistyped says nothing of how far arms give.
     let kept: Vec<usize> = (0..problem.data.rows.len()).filter(|row| problem.fits[*row]).collect();
@@ -49,7 +49,7 @@ pub(crate) fn scale_elastic(
         }
         for (k, squares) in squares.into_iter().enumerate() {
             let moved = (squares / rows.len() as f64).sqrt();
-            if candidate.held[k] == 0.0 && moved > 0.0 {
+            if candidate.usual.held[k] == 0.0 && moved > 0.0 {
                 candidate.set_usual(k, most / moved);
             }
         }
@@ -80,7 +80,7 @@ mod tests {
             let effect = c.effect().map(|(effect, spot)| (effect.identifier(), spot.place));
             effect == Some(("joint_compliance", Place::Joint(2)))
         });
-        let usual = 1.0 / (LOOSE * own.unwrap().held[0]);
+        let usual = 1.0 / (LOOSE * own.unwrap().usual.held[0]);
         let mut softer = arm.clone();
         // A hundredth of it, where the arm gives in proportion.
         softer.joints[1].compliance += usual / 100.0;

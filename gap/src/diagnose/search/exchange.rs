@@ -44,8 +44,7 @@ impl Observations for Search<'_, '_> {
     fn terms<'f>(&'f self, now: &'f Explained) -> Terms<'f> {
         let weighed = |found: &'f Fitted| Weighed {
             values: &found.values,
-            held: &found.held,
-            multiplicity: found.multiplicity,
+            usual: &found.usual,
             is_tolerated: found.effect.is_tolerated(),
             is_proportional: true,
             margin: found.margin,

@@ -73,7 +73,7 @@ impl Search<'_, '_> {
         let mut own = normal.view((fitted, fitted), (all, all)) - across.tr_mul(&across);
         let shown = DVector::from_fn(all, |k, _| own[(k, k)] > OWN * OWN * sizes[k]);
         let right = right.rows(fitted, all) - across.tr_mul(&mine);
-        let held: Vec<f64> = ordinary.iter().flat_map(|c| c.held.clone()).collect();
+        let held: Vec<f64> = ordinary.iter().flat_map(|c| c.usual.held.clone()).collect();
         held.iter().enumerate().for_each(|(k, held)| own[(k, k)] += held * held);
         let own_sizes: Vec<usize> = ordinary.iter().map(|c| c.size).collect();
         let begins = starts(&own_sizes);
@@ -87,7 +87,7 @@ impl Search<'_, '_> {
             let matrix: DMatrix<f64> = own.select_rows(&columns).select_columns(&columns);
             let right = right.select_rows(&columns);
             let least: Vec<f64> =
-                causes.into_iter().flat_map(|c| ordinary[c].least.clone()).collect();
+                causes.into_iter().flat_map(|c| ordinary[c].usual.least.clone()).collect();
             let sizes = sizes.select_rows(&columns);
             let squares = Squares { matrix: &matrix, right: &right, sizes, decided: OWN * OWN };
             let (values, _) = squares.solve(&least);
@@ -103,7 +103,7 @@ impl Search<'_, '_> {
         let variance = scale.variance((left - most).max(0.0), fitted);
         let weighed = falls.into_iter().map(|(causes, (fall, values, matrix, held))| {
             let price = price(matrix, &held, Some(values.as_slice()), scale.numbers, variance);
-            let multiplicity = causes.into_iter().map(|c| ordinary[c].multiplicity).product();
+            let multiplicity = causes.into_iter().map(|c| ordinary[c].usual.multiplicity).product();
             let gain = fall / variance - Scale::cost(price, multiplicity);
             Pair { causes, values: values.iter().copied().collect(), gain }
         });

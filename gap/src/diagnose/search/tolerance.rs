@@ -21,7 +21,7 @@ impl Search<'_, '_> {
             let Some((index, factor)) = self.looser(&now) else { break };
             let Explained { fit, weights, .. } = now;
             let mut model = fit.model;
-            model.found[index].held.iter_mut().for_each(|held| *held /= factor);
+            model.found[index].usual.held.iter_mut().for_each(|held| *held /= factor);
             let fit = refit(self.problem, model, Some(&fit.predicted.sims), &weights)?;
             now = self.converged(fit, weights)?;
         }
@@ -35,9 +35,9 @@ impl Search<'_, '_> {
         let index = (Model::along(problem)..found.len()).find(is_held)?;
         let before = found[..index].iter().map(|f| f.values.len()).sum::<usize>();
         let own = &found[index];
-        let told = Candidate::of(problem, own.effect, own.spot, own.multiplicity).held;
-        let is_now = told[0] / own.held[0];
-        let held = DVector::from_column_slice(&own.held);
+        let told = Candidate::of(problem, own.effect, own.spot, own.usual.multiplicity).usual.held;
+        let held = DVector::from_column_slice(&own.usual.held);
+        let is_now = told[0] / held[0];
         let t = Basis::new(&self.normal(now)).t;
         let t = t.rows(Model::nuisances(problem) + before, held.len()).into_owned();
         let beside = Basis::new(&(&t * t.transpose())).t;

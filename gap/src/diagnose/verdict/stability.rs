@@ -80,8 +80,8 @@ impl Search<'_, '_> {
             if score.own <= OWN {
                 return (candidate, f64::MAX);
             }
-            let price = own.price(&it.held, &score.values, numbers, variance);
-            (candidate, Scale::cost(price, it.multiplicity) - score.drop / variance)
+            let price = own.price(&it.usual.held, &score.values, numbers, variance);
+            (candidate, Scale::cost(price, it.usual.multiplicity) - score.drop / variance)
         };
         contenders.iter().map(cost).collect()
     }

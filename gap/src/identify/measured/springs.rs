@@ -11,6 +11,7 @@ use crate::diagnose::fit::Fitted;
 use crate::effects::{
     At, AtRest, Facts, JOINT_SPRING, Law, Parameter, Place, Quantity, Scene, Spot,
 };
+use crate::infer::Usual;
 use crate::measurement::Row;
 use crate::simulate::{Actual, Moment, Site};
 
@@ -56,8 +57,8 @@ impl Unknown {
             Unknown::Base(form) => (&Foundation, Spot { place: Place::Base, form }),
         };
         let least = effect.parameters(arm, spot).iter().map(|p| p.least).collect();
-        let (values, held) = (vec![value], vec![0.0]);
-        Fitted { effect, spot, least, values, held, multiplicity: 1, margin: 0.0 }
+        let usual = Usual { least, held: vec![0.0], multiplicity: 1 };
+        Fitted { effect, spot, values: vec![value], usual, margin: 0.0 }
     }
 }
 

@@ -8,7 +8,7 @@ use super::explained::Explained;
 use super::fit::Term;
 use super::normal_equations::Sums;
 use super::{LOOSE, Search};
-use crate::infer::{self, Answer, Basis, Columns, Observations, Products, Screen};
+use crate::infer::{self, Answer, Basis, Columns, Observations, Products, Screen, Usual};
 use crate::parallel;
 
 /// What could be added to a model.
@@ -38,22 +38,12 @@ pub struct Linear<'s> {
     /// About which values.
     pub entry: usize,
     of: &'s Entry,
-    least: Vec<f64>,
-    held: Vec<f64>,
-    multiplicity: usize,
+    usual: Usual,
 }
 
 impl Columns for Linear<'_> {
-    fn least(&self) -> &[f64] {
-        &self.least
-    }
-
-    fn held(&self) -> &[f64] {
-        &self.held
-    }
-
-    fn multiplicity(&self) -> usize {
-        self.multiplicity
+    fn usual(&self) -> &Usual {
+        &self.usual
     }
 
     fn is_linearized(&self) -> bool {
@@ -76,12 +66,12 @@ impl<'s> Search<'s, '_> {
             entries.map(move |(entry, of)| {
                 let least = vec![f64::NEG_INFINITY; of.columns.len()];
                 // About other values than 0 what is usual says nothing of the step to the best.
-                let usual = effect.parameters().iter().map(|p| match of.done {
+                let held = effect.parameters().iter().map(|p| match of.done {
                     None if p.usual.is_finite() => 1.0 / (LOOSE * p.usual),
                     _ => 0.0,
                 });
-                let held = usual.chain(std::iter::repeat(0.0)).take(least.len()).collect();
-                Linear { offer, entry, of, least, held, multiplicity }
+                let held = held.chain(std::iter::repeat(0.0)).take(least.len()).collect();
+                Linear { offer, entry, of, usual: Usual { least, held, multiplicity } }
             })
         };
         offers.iter().flat_map(of_offer).collect()

@@ -107,7 +107,7 @@ impl<'s> Observations for Search<'s, '_> {
         let joints = self.weights(by).into_iter().enumerate();
         let squares: f64 = joints.map(|(joint, weight)| weight * square(joint)).sum();
         let terms = self.terms(now).each;
-        let each = terms.iter().flat_map(|term| term.values.iter().zip(term.held));
+        let each = terms.iter().flat_map(|term| term.values.iter().zip(&term.usual.held));
         squares + each.map(|(value, held)| (value * held).powi(2)).sum::<f64>()
     }
 
@@ -116,7 +116,7 @@ impl<'s> Observations for Search<'s, '_> {
         let products = self.dict.whole().squares(&now.fit.columns, &self.weights(now));
         let mut normal = sum(products.iter()).unwrap_or_else(|| DMatrix::zeros(count, count));
         let terms = self.terms(now);
-        let held = terms.each.iter().flat_map(|term| term.held);
+        let held = terms.each.iter().flat_map(|term| &term.usual.held);
         for (at, held) in held.enumerate() {
             normal[(terms.nuisances + at, terms.nuisances + at)] += held * held;
         }
@@ -128,8 +128,7 @@ impl<'s> Observations for Search<'s, '_> {
             let entry = self.entry(term);
             Weighed {
                 values: &term.values,
-                held: entry.held(),
-                multiplicity: entry.multiplicity(),
+                usual: entry.usual(),
                 is_tolerated: false,
                 is_proportional: !entry.is_linearized(),
                 margin: term.margin,
