@@ -18,6 +18,7 @@ pub struct Usual {
 
 /// What may be added to a model, as far as its columns go.
 pub trait Columns: Sync {
+    /// What is usual of it.
     fn usual(&self) -> &Usual;
 
     /// Whether its numbers are held to what makers tolerate.

@@ -190,20 +190,20 @@ impl<'w, 'a> Tangent<'w, 'a> {
         if self.bound() < 1.0 {
             return true;
         }
-        let roots: Vec<(usize, Vector6<f64>)> =
-            self.giving.iter().flat_map(|one| roots(one).into_iter()).collect();
+        // A moment does the work of the turn, in the axes before it.
+        let turned = |(site, root): (usize, Vector6<f64>)| {
+            (site, translation(&root), left(&rotation(&self.at[site])) * rotation(&root))
+        };
+        let roots: Vec<_> = self.giving.iter().flat_map(roots).map(turned).collect();
         let n = roots.len();
         let mut loaded = DMatrix::zeros(n, n);
-        for (column, (moved, root)) in roots.iter().enumerate() {
-            let turn = self.frames[*moved].before.rotation;
-            let shift = turn * translation(root);
-            let turn = turn * (left(&rotation(&self.at[*moved])) * rotation(root));
-            for (row, (site, other)) in roots.iter().enumerate() {
+        for (column, (moved, shift, turn)) in roots.iter().enumerate() {
+            let axes = self.frames[*moved].before.rotation;
+            let (shift, turn) = (axes * shift, axes * turn);
+            for (row, (site, by_shift, by_turn)) in roots.iter().enumerate() {
                 let load = self.load_change(*site, *moved, &shift, &turn);
-                // A moment does the work of the turn, in the axes before it.
-                let by = left(&rotation(&self.at[*site])) * rotation(other);
                 loaded[(row, column)] =
-                    translation(other).dot(&translation(&load)) + by.dot(&rotation(&load));
+                    by_shift.dot(&translation(&load)) + by_turn.dot(&rotation(&load));
             }
         }
         let stiffness = DMatrix::identity(n, n) - (&loaded + loaded.transpose()) / 2.0;

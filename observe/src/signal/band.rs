@@ -48,6 +48,8 @@ fn spectrum(parts: &[&[f64]]) -> Option<Vec<f64>> {
     let starts: Vec<&[f64]> =
         parts.iter().flat_map(|p| p.windows(window).step_by(window / 2)).collect();
     let every = starts.len().div_ceil(MOST);
+    let turn = |k: usize| (2.0 * PI * k as f64 / window as f64).sin_cos();
+    let turns: Vec<(f64, f64)> = (0..window).map(turn).collect();
     let mut power = vec![0.0; window / 2];
     for samples in starts.iter().step_by(every) {
         let mean = samples.iter().sum::<f64>() / window as f64;
@@ -56,17 +58,15 @@ fn spectrum(parts: &[&[f64]]) -> Option<Vec<f64>> {
             .iter()
             .enumerate()
             .map(|(k, x)| {
-                let turn = 2.0 * PI * k as f64 / window as f64;
                 // Blackman's window: side lobes 58 dB down, and falling.
-                let weight = 0.42 - 0.5 * turn.cos() + 0.08 * (2.0 * turn).cos();
+                let weight = 0.42 - 0.5 * turns[k].1 + 0.08 * turns[2 * k % window].1;
                 weight * (x - mean - slope * (k as f64 - 0.5 * (window - 1) as f64))
             })
             .collect();
         for (bin, sum) in power.iter_mut().enumerate() {
-            let step = 2.0 * PI * bin as f64 / window as f64;
             let (mut re, mut im) = (0.0, 0.0);
             for (k, x) in shaped.iter().enumerate() {
-                let (sin, cos) = (step * k as f64).sin_cos();
+                let (sin, cos) = turns[bin * k % window];
                 (re, im) = (re + x * cos, im + x * sin);
             }
             *sum += re * re + im * im;
