@@ -12,6 +12,7 @@
 
 #![warn(clippy::all)]
 
+use std::collections::HashMap;
 use std::hint::black_box;
 use std::path::Path;
 use std::process::{Command, ExitCode};
@@ -203,18 +204,13 @@ fn slower(table: &str, snapshot: &str) -> Vec<String> {
         let (name, count) = line.rsplit_once(' ')?;
         Some((name.trim().to_owned(), count.parse().ok()?))
     };
-    let known: Vec<(String, f64)> = snapshot.lines().filter_map(read).collect();
-    let mut slower = Vec::new();
-    for (name, now) in table.lines().filter_map(read) {
-        match known.iter().find(|(other, _)| *other == name) {
-            Some((_, before)) if now > 1.05 * before => {
-                slower.push(format!("{name}: {now} instructions, the snapshot has {before}"));
-            }
-            Some(_) => {}
-            None => slower.push(format!("{name}: not in the snapshot")),
-        }
-    }
-    slower
+    let known: HashMap<String, f64> = snapshot.lines().filter_map(read).collect();
+    let told = |(name, now): (String, f64)| match known.get(&name) {
+        None => Some(format!("{name}: not in the snapshot")),
+        Some(before) => (now > 1.05 * before)
+            .then(|| format!("{name}: {now} instructions, the snapshot has {before}")),
+    };
+    table.lines().filter_map(read).filter_map(told).collect()
 }
 
 /// A remark on one's own machine; in CI a gate that compares nothing is open.

@@ -1,7 +1,5 @@
 //! Poses packed into lanes.
 
-#![warn(clippy::all)]
-
 use stiffarm_kernels::lanes::{f64x4, f64x8};
 
 /// Four poses to an array of lanes.

@@ -93,7 +93,7 @@ fn a_closed_pipe_is_no_mistake() {
         &LIN,
         &SPRINGS,
         &WITHHOLD,
-        &["papers"],
+        &PAPER,
         &["man"],
         &["robots"],
         &["completions", "bash"],

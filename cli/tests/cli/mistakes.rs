@@ -118,3 +118,14 @@ fn rows_of_other_poses_are_no_arm() {
     let out = flat(&ended.out);
     assert!(out.contains("Nothing explains the position error"), "{out}");
 }
+
+/// Links that bend by 4 cm, as the file has it: nothing is wrong with the measured coordinates.
+#[test]
+fn links_that_bend_are_no_mistake() {
+    let folder = Folder::new();
+    let data = folder.name("bent.csv");
+    let run = |command: &str| run(&format!("{command} --quiet")).good();
+    run(&format!("simulate bicchi_3r --poses 6 --payload 10N --noise-position 30um --csv {data}"));
+    let found = run(&format!("diagnose bicchi_3r {data}"));
+    assert!(found.contains("Nothing is found") && !found.contains("Mistaken"), "{found}");
+}

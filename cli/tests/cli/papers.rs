@@ -6,8 +6,6 @@ use crate::support::{Folder, has, read, stiffarm};
 fn the_built_in_ledger_names_the_misprints() {
     let out = stiffarm(&["papers"]).good();
     has(&out, &["Dumas", "Knapczyk", "Lin", "Jweeg", "Bicchi", "misprint", "reproduced"]);
-    let found = stiffarm(&["papers", "--json"]).json();
-    assert!(found.is_object() || found.is_array());
 }
 
 #[test]
@@ -19,6 +17,7 @@ fn a_file_of_ones_own_is_judged_and_written() {
     let html = std::fs::read_to_string(page).expect("written");
     assert!(html.contains("<html") && !html.contains("http://") && !html.contains("src=\"//"));
     assert!(stiffarm(&["papers", own, "--markdown"]).good().contains('|'));
+    assert!(stiffarm(&["papers", own, "--json"]).json().is_array());
 }
 
 /// What is committed is what the command prints.

@@ -3,7 +3,7 @@
 use crate::support::{Folder, has, json, stiffarm};
 
 /// One known effect, few cases: quick in any build.
-const SMALL: &str = "withhold bicchi_3r --effects joint_offset,joint_compliance --cases 4 --poses 6 --payload 100N \
+const SMALL: &str = "withhold bicchi_3r --effects joint_offset,joint_compliance --cases 4 --poses 6 --payload 10N \
                      --quiet";
 
 #[test]

@@ -5,6 +5,8 @@
 //! p_k = B_s · T(q_k + δ + c ∘ τ_k) · o_m
 //! ```
 //!
+//! Links that the file has as beams bend by what it says, to first order.
+//!
 //! The base B of each session and the point o of each marker in a session (with the tool's orientation where that
 //! is measured) begin where closed forms put them (Kabsch; a mean), each exact where the other is. Then all
 //! are refined by least squares with weights of Cauchy's form, for some rows are just wrong.
@@ -13,7 +15,7 @@ mod align;
 mod open;
 mod step;
 
-use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3, Vector6};
 use stiffarm_kernels::generic::{self, Arm, Convention};
 
 use super::kind::Mistake;
@@ -22,6 +24,7 @@ use crate::constants::{BEST_ROWS, NEARLY_ALL_ROWS};
 use crate::doubts::reach;
 use crate::gap::rms;
 use crate::infer::ascending;
+use crate::simulate::{rotation, translation};
 use open::Open;
 
 /// Prior scale of a joint's zero, rad (m): marks and masters are good to some mrad.
@@ -72,6 +75,8 @@ pub(super) struct Left {
 struct Row {
     q: Vec<f64>,
     torque: Vec<f64>,
+    /// By how much the links' bending shifts and turns the tool, base frame.
+    bent: Option<(Vector3<f64>, UnitQuaternion<f64>)>,
     at: Vector3<f64>,
     turn: UnitQuaternion<f64>,
     session: usize,
@@ -146,6 +151,9 @@ impl Fit {
         let has_mass = loaded && arm.joints.iter().any(is_heavy);
         let down = arm.gravity;
         arm.base = Isometry3::identity();
+        let has_beams = loaded && arm.joints.iter().any(|joint| joint.beam.is_some());
+        let mut links = arm.clone();
+        links.joints.iter_mut().for_each(|joint| joint.compliance = 0.0);
         let mut rows = Vec::with_capacity(chosen.len());
         let mut is_loaded = has_mass && down != Vector3::zeros();
         for &number in chosen {
@@ -165,8 +173,12 @@ impl Fit {
                 let own = arm.joint_torque(&told.q, &told.wrench);
                 torque.iter_mut().zip(&own).for_each(|(sum, own)| *sum += own);
             }
+            let bent = || links.deflection_with_gravity(&told.q, &told.wrench).ok();
+            let moved = |by: Vector6<f64>| (translation(&by), UnitQuaternion::new(rotation(&by)));
+            let bent = has_beams.then(bent).flatten().map(moved);
             rows.push(Row {
                 torque,
+                bent,
                 at: measured.fixed_rows::<3>(0).into_owned(),
                 turn: UnitQuaternion::from_scaled_axis(measured.fixed_rows::<3>(3).into_owned()),
                 session: all.frame_of[number],
@@ -283,7 +295,12 @@ impl Fit {
     fn posture(&self, number: usize) -> Posture {
         let q = self.joints(number);
         let frames = self.arm.frames(&q);
-        Posture { q, tool: frames[self.arm.dof()] * self.arm.tool, frames }
+        let mut tool = frames[self.arm.dof()] * self.arm.tool;
+        if let Some((shift, turn)) = &self.rows[number].bent {
+            tool.translation.vector += shift;
+            tool.rotation = turn * tool.rotation;
+        }
+        Posture { q, frames, tool }
     }
 
     fn postures(&self) -> Vec<Posture> {
@@ -336,8 +353,7 @@ impl Fit {
     }
 
     fn left(&self, gaps: &[Gap]) -> Left {
-        let of =
-            |part: fn(&Gap) -> f64| crate::gap::rms(&gaps.iter().map(part).collect::<Vec<_>>());
+        let of = |part: fn(&Gap) -> f64| rms(&gaps.iter().map(part).collect::<Vec<_>>());
         let free = self.rows.iter().filter(|row| row.free.is_some()).count() as f64;
         let part = if self.has_rotation { 6.0 } else { 3.0 };
         let turned =
