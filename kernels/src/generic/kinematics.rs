@@ -44,8 +44,11 @@ fn row_transform(convention: Convention, joint: &Joint, q: f64) -> Isometry3<f64
     let rz = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), theta);
     let tz = Translation3::new(0.0, 0.0, d);
     let tx = Translation3::new(joint.a, 0.0, 0.0);
-    let inclined = UnitQuaternion::from_axis_angle(&Vector3::x_axis(), joint.alpha)
-        * UnitQuaternion::from_axis_angle(&Vector3::y_axis(), joint.beta);
+    let mut inclined = UnitQuaternion::from_axis_angle(&Vector3::x_axis(), joint.alpha);
+    // Few tables have a beta, and every posture asks for each row.
+    if joint.beta != 0.0 {
+        inclined *= UnitQuaternion::from_axis_angle(&Vector3::y_axis(), joint.beta);
+    }
     match convention {
         Convention::Standard => rz * tz * tx * inclined,
         Convention::Modified => inclined * tx * rz * tz,
