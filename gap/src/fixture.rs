@@ -1,6 +1,8 @@
 //! Small arms and rows that the tests of this crate share.
 
-use nalgebra::{Isometry3, Vector3, Vector6};
+use core::f64::consts::FRAC_PI_2;
+
+use nalgebra::{Isometry3, Matrix3, Vector3, Vector6};
 use stiffarm_kernels::Motion;
 use stiffarm_kernels::generic::{Arm, Beam, Convention, Joint};
 use stiffarm_table::robot::Robot;
@@ -14,18 +16,30 @@ fn joint(a: f64, alpha: f64, d: f64) -> Joint {
 
 /// An elbow of three rigid joints with weights.
 pub(crate) fn rigid() -> Arm {
-    let half = core::f64::consts::FRAC_PI_2;
     Arm {
         name: "elbow".to_owned(),
         convention: Convention::Standard,
-        joints: vec![joint(0.1, half, 0.4), joint(0.7, 0.0, 0.0), joint(0.6, 0.0, 0.05)],
+        joints: vec![joint(0.1, FRAC_PI_2, 0.4), joint(0.7, 0.0, 0.0), joint(0.6, 0.0, 0.05)],
         tool: Isometry3::translation(0.1, 0.0, 0.05),
         gravity: Vector3::new(0.0, 0.0, -9.80665),
         ..Arm::default()
     }
 }
 
-/// The same with a spring at every joint.
+/// The same with inertias, rotors and friction.
+pub(crate) fn geared() -> Arm {
+    let mut arm = rigid();
+    for joint in &mut arm.joints {
+        joint.inertia = Matrix3::identity() * 0.3;
+        joint.limits = Some([-FRAC_PI_2, FRAC_PI_2]);
+        joint.drive.gear = 100.0;
+        joint.drive.rotor_inertia = 1e-4;
+        (joint.drive.coulomb, joint.drive.viscous) = (4.0, 2.0);
+    }
+    arm
+}
+
+/// The rigid elbow with a spring at every joint.
 pub(crate) fn springy() -> Arm {
     let mut arm = rigid();
     for (joint, compliance) in arm.joints.iter_mut().zip([2e-6, 3e-6, 5e-6]) {

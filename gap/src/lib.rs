@@ -16,6 +16,7 @@ pub mod displacement;
 pub mod doubts;
 pub mod effects;
 #[cfg(test)]
+#[allow(dead_code, reason = "arms of other packages' tests")]
 mod fixture;
 pub mod gap;
 pub mod identify;

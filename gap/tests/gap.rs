@@ -11,6 +11,7 @@ mod log;
 #[path = "../src/noisy.rs"]
 mod noisy;
 mod one_file;
+mod springs;
 mod ur10;
 
 // What the arms and rows of the unit tests are made of.

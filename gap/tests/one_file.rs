@@ -41,7 +41,7 @@ fn has_word(text: &str, word: &str) -> bool {
 
 #[test]
 fn an_identifier_stands_in_its_own_file_alone() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the workspace");
+    let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."));
     let mut all = Vec::new();
     let packages =
         "gap plant compensate study infer io observe table codegen kernels robots cli papers";

@@ -24,7 +24,7 @@ struct Data {
 }
 
 fn data() -> Data {
-    let beside = || PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../shared/data");
+    let beside = || PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data");
     let directory = std::env::var_os("STIFFARM_DATA").map_or_else(beside, PathBuf::from);
     let directory = directory.join("ur10");
     let path = directory.join("robot.toml");

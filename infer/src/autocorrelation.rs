@@ -27,6 +27,9 @@ pub struct Autoregression {
     freedom: f64,
     /// Components in which the pattern shows.
     components: usize,
+    /// Steps that errors linger, 1 where they do not: their correlation, summed over all lags. The longer of positions'
+    /// and rotations'.
+    pub memory: f64,
 }
 
 /// Of one component what is left, a mean, the pattern that is asked for and each other, a row each, at every step of
@@ -68,6 +71,7 @@ impl Autoregression {
             fall: a.fall + b.fall,
             freedom: a.freedom + b.freedom,
             components: a.components + b.components,
+            memory: a.memory.max(b.memory),
         };
         kinds.into_iter().flatten().reduce(both)
     }
@@ -84,6 +88,7 @@ impl Autoregression {
             fall: falls.iter().sum::<f64>() / likely.variance.max(variance),
             freedom: all.len() as f64 * (first.ncols() as f64 - fitted),
             components: falls.len(),
+            memory: memory.steps(),
         })
     }
 
@@ -100,6 +105,11 @@ impl Autoregression {
 impl Memory {
     /// None: every step is forgotten in the next.
     const NONE: Self = Self { share: 0.0, stays: 0.0 };
+
+    /// The correlation, summed over all lags.
+    fn steps(self) -> f64 {
+        1.0 + 2.0 * self.share * self.stays / (1.0 - self.stays)
+    }
 
     /// The products of the rows of a series, told so that its steps are independent and of one variance;
     /// and the logarithm of the determinant of that change.
@@ -197,96 +207,4 @@ pub fn correlation_time(parts: &[Vec<Option<f64>>], step: f64) -> f64 {
         }
     }
     time.max(0.5) * step
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::rng::{Rng, Stream};
-
-    /// Steps of a campaign, and the jumps that are tried in it.
-    const STEPS: usize = 180;
-    const JUMPS: usize = 24;
-
-    /// Errors of three components, a third of them of the instrument: they linger over `memory` steps, and
-    /// the first jumps after two fifths of the steps.
-    fn campaign(seed: u64, memory: f64, jump: f64) -> [Vec<f64>; 3] {
-        let mut rng = Rng::new(seed, Stream::Signs);
-        let stays = if memory > 0.0 { (-1.0 / memory).exp() } else { 0.0 };
-        std::array::from_fn(|component| {
-            let mut error = rng.normal();
-            let step = |k: usize| {
-                error = stays * error + (1.0 - stays * stays).sqrt() * rng.normal();
-                let off = if component == 0 && k >= 2 * STEPS / 5 { jump } else { 0.0 };
-                error + off + rng.normal() / 3.0
-            };
-            (0..STEPS).map(step).collect()
-        })
-    }
-
-    /// The best jump beside the errors.
-    fn best(errors: &[Vec<f64>; 3]) -> Vec<Series> {
-        let mean = |of: &[f64]| of.iter().sum::<f64>() / of.len() as f64;
-        let size = |errors: &Vec<f64>, at: usize| mean(&errors[at..]) - mean(&errors[..at]);
-        let fall = |at: usize| {
-            let pairs = (at * (STEPS - at)) as f64 / STEPS as f64;
-            errors.iter().map(|errors| pairs * size(errors, at).powi(2)).sum::<f64>()
-        };
-        let jumps = (1..=JUMPS).map(|k| k * STEPS / (JUMPS + 1));
-        let at = jumps.max_by(|a, b| fall(*a).total_cmp(&fall(*b))).unwrap();
-        let part = (STEPS - at) as f64 / STEPS as f64;
-        let of = |errors: &Vec<f64>| {
-            let (size, whole) = (size(errors, at), mean(errors));
-            Series::from_fn(3, STEPS, |what, k| {
-                let pattern = if k < at { 0.0 } else { size };
-                [errors[k] - whole - pattern + size * part, 1.0, pattern][what]
-            })
-        };
-        errors.iter().map(of).collect()
-    }
-
-    fn is_claimed(seed: u64, memory: f64, jump: f64) -> bool {
-        let series = best(&campaign(seed, memory, jump));
-        let errors = Autoregression::of_kind(&series, 0.0).expect("steps enough");
-        errors.p_value(3, JUMPS) <= SIGNIFICANT
-    }
-
-    #[test]
-    fn a_jump_is_claimed_of_one_campaign_in_twenty_however_long_errors_linger() {
-        for memory in [0.0, 2.0, 8.0, 33.0, 100.0] {
-            let alarms = (0..100).filter(|seed| is_claimed(*seed, memory, 0.0)).count();
-            // More of a hundred where five are allowed come once in 1500 times.
-            assert!(alarms <= 12, "{alarms} of 100 at {memory}");
-        }
-    }
-
-    #[test]
-    fn a_jump_beyond_the_errors_is_found() {
-        for (memory, jump) in [(0.0, 1.0), (2.0, 3.0), (8.0, 10.0)] {
-            let found = (0..40).filter(|seed| is_claimed(*seed, memory, jump)).count();
-            assert!(found >= 36, "{found} of 40: {jump} at {memory}");
-        }
-    }
-
-    /// Errors that wander as far within the campaign do so by steps: none of them is as large as the jump.
-    #[test]
-    fn a_jump_is_told_from_errors_that_wander_as_far() {
-        let found = (0..20).filter(|seed| is_claimed(*seed, 60.0, 3.0)).count();
-        assert!(found >= 18, "{found} of 20");
-    }
-
-    /// As long as it is: what was fitted has not taken it away. In steps, the correlation summed over all lags.
-    #[test]
-    fn memory_is_told_beside_what_was_fitted() {
-        for (memory, low, high) in [(0.0, 0.5, 1.5), (8.0, 8.0, 25.0), (33.0, 25.0, 120.0)] {
-            let mut all: Vec<f64> = (0..21)
-                .map(|seed| {
-                    let Memory { share, stays } = likeliest(&best(&campaign(seed, memory, 0.0))).0;
-                    1.0 + 2.0 * share * stays / (1.0 - stays)
-                })
-                .collect();
-            all.sort_by(f64::total_cmp);
-            assert!((low..high).contains(&all[10]), "{} at {memory}", all[10]);
-        }
-    }
 }

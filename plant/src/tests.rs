@@ -1,5 +1,3 @@
-mod agreement;
-
 use nalgebra::{Matrix4, Vector3, Vector6};
 use stiffarm_kernels::generic::{Arm, Convention};
 

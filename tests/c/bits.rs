@@ -4,10 +4,10 @@ use core::fmt::{Debug, LowerHex};
 
 use stiffarm::kernels::{Motion, Scalar};
 use stiffarm_codegen::emit::{Precision, Sines};
-use stiffarm_draws::Draws;
+use stiffarm_draws::{Draws, few_or_many};
 
 use crate::arms::{Arm, build, doubles, robot, singles};
-use crate::compiler::{Folder, compile, run, with_each_compiler};
+use crate::compiler::{Folder, compile, optimised, run, with_each_compiler};
 
 with_each_compiler! {
     doubles_are_the_rust_kernels_bits
@@ -16,9 +16,6 @@ with_each_compiler! {
     the_widest_registers_are_taken_on_amds_cores_alone
     a_reference_that_was_tampered_with_is_found
 }
-
-/// Joint vectors and wrenches of each arm.
-const COUNT: usize = 250;
 
 /// A number that has bits.
 pub trait Bits: Scalar + Into<f64> + Debug + PartialEq + 'static {
@@ -77,7 +74,7 @@ fn draws<S: Scalar>(n: usize) -> Vec<Draw<S>> {
         q.extend((0..2 * n).map(|_| 5.0 * unit()));
         (q.into_iter().map(S::lit).collect(), core::array::from_fn(|_| S::lit(load * unit())))
     };
-    (0..COUNT).map(&mut each).collect()
+    (0..few_or_many(75, 250)).map(&mut each).collect()
 }
 
 /// What C says to each draw: the outputs in the order of [`Arm::outputs`].
@@ -137,40 +134,38 @@ fn check<S: Bits>(compiler: &str, arms: &[Arm<S>], flags: &[&str]) {
         // Of the first draws the angles are none.
         let refused = expected.iter().skip(4).flatten().filter(|out| out.is_none()).count();
         assert_eq!(refused == 0, arm.is_rigid(), "{name}");
-        assert!(refused < COUNT, "{name}: {refused} loads are not borne");
+        assert!(refused < draws.len(), "{name}: {refused} loads are not borne");
         let found = by_c(&folder, arm.id, &draws, expected[0].len());
         assert_eq!(difference(&expected, &found), None, "{name}");
     }
 }
 
 fn doubles_are_the_rust_kernels_bits(compiler: &str) {
-    check(compiler, &doubles(), &["-O2"]);
+    check(compiler, &doubles(), &[optimised()]);
 }
 
 fn singles_are_the_rust_kernels_bits(compiler: &str) {
-    check(compiler, &singles(), &["-O2"]);
+    check(compiler, &singles(), &[optimised()]);
 }
 
 /// One number at a time, and the registers beyond those that the target has anyway.
 fn as_many_lanes_as_there_are_have_the_same_bits(compiler: &str) {
     let own = if cfg!(target_arch = "aarch64") { "-U__aarch64__" } else { "-U__SSE2__" };
-    let single = ["-O2", own];
-    let mut widths = vec![&single[..]];
+    let mut widths = vec![vec![own]];
     #[cfg(target_arch = "x86_64")]
     {
-        let (avx2, avx512) =
-            (std::is_x86_feature_detected!("avx2"), std::is_x86_feature_detected!("avx512f"));
-        widths.extend(avx2.then_some(&["-O2", "-mavx2"][..]));
-        widths.extend(avx512.then_some(&WIDEST[..]));
+        widths.extend(std::is_x86_feature_detected!("avx2").then(|| vec!["-mavx2"]));
+        widths.extend(std::is_x86_feature_detected!("avx512f").then(|| WIDEST[1..].to_vec()));
     }
     // Sums of angles, seven of them, and angles that only readings and inputs have.
     let is_one = |id: &str| ["ur10", "iiwa14", "corrected"].contains(&id);
     let (mut doubles, mut singles) = (doubles(), singles());
     doubles.retain(|arm| is_one(arm.id));
     singles.retain(|arm| is_one(arm.id));
-    for width in widths {
-        check(compiler, &doubles, width);
-        check(compiler, &singles, width);
+    for mut width in widths {
+        width.push(optimised());
+        check(compiler, &doubles, &width);
+        check(compiler, &singles, &width);
     }
 }
 
@@ -201,10 +196,10 @@ fn a_reference_that_was_tampered_with_is_found(compiler: &str) {
     let found = by_c(&folder, arm.id, &draws, expected[0].len());
     assert_eq!(difference(&expected, &found), None);
     // The last bit of one number of one output of one draw.
-    let number = &mut expected[COUNT - 1][2].as_mut().expect("a Jacobian")[1];
+    let number = &mut expected[draws.len() - 1][2].as_mut().expect("a Jacobian")[1];
     *number = f64::from_bits(number.to_bits() ^ 1);
     let told = difference(&expected, &found).expect("a difference");
-    assert!(told.starts_with(&format!("draw {}, output 2:", COUNT - 1)), "{told}");
+    assert!(told.starts_with(&format!("draw {}, output 2:", draws.len() - 1)), "{told}");
 }
 
 /// Arms in a plane and in space, one that slides, some that give.

@@ -20,6 +20,11 @@ const STRICT: [&str; 9] = [
     "-Werror",
 ];
 
+/// How texts are compiled whose values are compared: as a controller's are, where there is time.
+pub fn optimised() -> &'static str {
+    stiffarm_draws::few_or_many("-O0", "-O2")
+}
+
 /// What of CUDA the text uses, for a C compiler.
 pub const CUDA: &str = "
 #include <inttypes.h>

@@ -54,7 +54,7 @@ where
     R: Kernels<T> + Kernels<T::Lanes> + Sync,
 {
     let mut draws = Draws::new(8);
-    for poses in [0, 1, 3, 4, 7, 8, 9, 21, 2500] {
+    for poses in [0, 1, 3, 4, 7, 8, 9, 21, stiffarm_draws::few_or_many(1100, 2500)] {
         for &output in outputs {
             let case = case::<T>(output.state(Kernels::<T>::dof(robot)), poses, &mut draws);
             let wrench = |pose: usize| core::array::from_fn(|k| case.wrenches[6 * pose + k]);

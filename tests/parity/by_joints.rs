@@ -47,7 +47,9 @@ fn check<R: Kernels<f64> + Kernels<f32> + Sync>(robot: &R, file: &str) {
     assert!(!outputs.is_empty() && outputs.iter().all(|output| output.is_on_request()));
     let (generated, single) = (&double, Some(&single as _));
     let subject = Subject { outputs, arm: &arm, beyond: None, generated, single };
-    for line in parity::agreement(&subject, 1000, 3, &|_| {}).lines {
+    for line in
+        parity::agreement(&subject, stiffarm_draws::few_or_many(200, 1000), 3, &|_| {}).lines
+    {
         assert_eq!(line.exceeded().next(), None, "{file} {line:?}");
         let by_differences = line.output != Output::Manipulability;
         assert_eq!(line.worst[Comparison::Differences as usize].is_some(), by_differences);

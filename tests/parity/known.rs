@@ -2,6 +2,7 @@
 
 use stiffarm::kernels::parity::{self, Subject};
 use stiffarm::kernels::{Output, has};
+use stiffarm_draws::few_or_many;
 
 use crate::compare::{Draws, agrees, collection};
 
@@ -14,7 +15,7 @@ fn every_arm(states: usize) {
 
 #[test]
 fn double_precision_agrees_to_1e_12() {
-    every_arm(COUNT);
+    every_arm(few_or_many(100, COUNT));
 }
 
 #[test]
@@ -33,7 +34,7 @@ fn compiled_kernels_agree_in_every_way() {
         let outputs = entry.kernels.outputs();
         let subject =
             Subject { outputs, arm: &arm, beyond: None, generated: &double, single: Some(&single) };
-        for line in parity::agreement(&subject, COUNT, 2, &|_| {}).lines {
+        for line in parity::agreement(&subject, few_or_many(100, COUNT), 2, &|_| {}).lines {
             assert_eq!(line.exceeded().next(), None, "{} {line:?}", entry.id);
             assert!(line.worst[0].is_some() && line.worst[1].is_some(), "{} {line:?}", entry.id);
         }
@@ -62,7 +63,7 @@ fn forward_dynamics_gives_the_motion_back() {
     {
         let mut draws = Draws::new(41);
         let mut worst = 0.0_f64;
-        for _ in 0..COUNT {
+        for _ in 0..few_or_many(100, COUNT) {
             let [q, rates, accelerations]: [[f64; N]; 3] =
                 core::array::from_fn(|_| core::array::from_fn(|_| 3.0 * draws.unit()));
             let posture = arm.posture(&q);

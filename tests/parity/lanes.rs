@@ -7,9 +7,6 @@ use stiffarm::kernels::{Kernels, Scalar};
 use crate::compare::{Draws, block};
 use crate::fixtures;
 
-/// Sets of lanes that each output is tried with.
-const COUNT: usize = 200;
-
 /// An output by one call for all lanes, and by one call for each.
 fn check<S, L, const N: usize>(
     robot: &(impl Kernels<S> + Kernels<L>),
@@ -22,7 +19,7 @@ fn check<S, L, const N: usize>(
 {
     let n = Kernels::<S>::dof(robot);
     let mut draws = Draws::new(6);
-    for _ in 0..COUNT {
+    for _ in 0..stiffarm_draws::few_or_many(40, 200) {
         let q: Vec<[S; N]> = (0..3 * n)
             .map(|_| core::array::from_fn(|_| S::lit(0.6 + 2.5 * draws.unit())))
             .collect();

@@ -3,7 +3,7 @@
 //! and the kernels' features by what they do to values.
 //!
 //! ```text
-//! cargo test -p stiffarm --test printed                   # six arms
+//! cargo test -p stiffarm --test printed                   # two arms; six with STIFFARM_THOROUGH=1
 //! cargo test -p stiffarm --test printed -- --ignored      # hundreds
 //! ```
 //!
@@ -41,8 +41,9 @@ const BATCHES: u64 = 24;
 /// Joints of the arms of a batch; the long ones have functions in several parts.
 const JOINTS: [usize; 12] = [1, 2, 3, 4, 5, 6, 7, 8, 9, 6, 13, 16];
 
-/// Of the quick form.
-const FEW: [usize; 6] = [1, 2, 4, 6, 7, 16];
+/// Of the quick forms.
+const SIX: [usize; 6] = [1, 2, 4, 6, 7, 16];
+const TWO: [usize; 2] = [4, 7];
 
 /// Features of the kernels, with what the compiler is told. Without any: the other tests.
 const FEATURES: [(&str, &str); 4] =
@@ -58,15 +59,16 @@ fn main() -> ExitCode {
         ("python", "_needs_numpy", python::answers, true),
     ];
     let mut trials = Vec::new();
+    let (few, features) = stiffarm_draws::few_or_many((&TWO[..], 1), (&SIX[..], FEATURES.len()));
     for (form, needs, print, missing) in forms {
-        let quick = move || check(form, &Batch::new(0, &FEW), print);
-        trials.push(Trial::test(format!("{form}_of_six{needs}"), quick).with_ignored_flag(missing));
+        let quick = move || check(form, &Batch::new(0, few), print);
+        trials.push(Trial::test(format!("{form}_of_few{needs}"), quick).with_ignored_flag(missing));
         let full = move || {
             (1..=BATCHES).try_for_each(|seed| check(form, &Batch::new(seed, &JOINTS), print))
         };
         trials.push(Trial::test(format!("{form}_of_hundreds"), full).with_ignored_flag(true));
     }
-    for (feature, flags) in FEATURES {
+    for (feature, flags) in FEATURES.into_iter().take(features) {
         let run = move || {
             check(feature, &Batch::new(25, &[6, 7]), |batch| rust::answers(batch, (feature, flags)))
         };
@@ -74,7 +76,7 @@ fn main() -> ExitCode {
         let trial = Trial::test(format!("rust_under_{feature}"), run);
         trials.push(trial.with_ignored_flag(missing));
     }
-    let assembled = || Ok(cuda::assembled(&Batch::new(0, &FEW))?);
+    let assembled = || Ok(cuda::assembled(&Batch::new(0, few))?);
     trials.push(Trial::test("cuda_needs_clang", assembled).with_ignored_flag(true));
     libtest_mimic::run(&Arguments::from_args(), trials).exit_code()
 }

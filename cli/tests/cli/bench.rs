@@ -104,7 +104,7 @@ fn every_kind_is_simulated_diagnosed_and_predicted() {
         ("camera --noise-rotation 0.2px", "cameras"),
         ("board", "x y z rx ry rz"),
     ];
-    for (kind, subject) in told {
+    for (kind, subject) in told.into_iter().step_by(stiffarm_draws::few_or_many(3, 1)) {
         let how = format!("--measure {kind} --poses 60 --payload 3kg --bench {bench}");
         let effect = "--effect 'joint_offset@joint 3=4e-3'";
         run(&format!("simulate irb120 {how} --csv {data} {effect}")).good();
@@ -165,7 +165,8 @@ fn sockets_and_a_camera_are_one_diagnosis() {
     });
     let rows: Vec<String> = std::iter::once(names.join(",")).chain(rows).collect();
     std::fs::write(&one, rows.join("\n")).expect("a file");
-    for files in [format!("{sockets} {corners}"), format!("{corners} {sockets}"), one] {
+    let all = [format!("{sockets} {corners}"), format!("{corners} {sockets}"), one];
+    for files in all.into_iter().step_by(stiffarm_draws::few_or_many(2, 1)) {
         let found = run(&format!("diagnose irb120 {files} --bench {bench} --json -")).json();
         let first = &list(&found["findings"])[0];
         assert_eq!(

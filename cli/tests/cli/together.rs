@@ -83,7 +83,7 @@ fn what_the_log_knows_is_a_part_of_the_campaigns_search() {
         (&finding["effect"], &finding["place"]) == (&"joint_compliance".into(), &"joint 2".into())
     };
     let mut named = [0, 0];
-    for seed in 11..=18 {
+    for seed in stiffarm_draws::few_or_many(13..=14, 11..=18) {
         let spring = "--effect 'joint_compliance@joint 2=1e-4'";
         run(&format!("simulate {robot} --csv {campaign} {few} --seed {seed} {spring}")).good();
         let droop = "--logged position --lost 0% --effect 'servo_droop@joint 2=1e-4'";
@@ -96,7 +96,8 @@ fn what_the_log_knows_is_a_part_of_the_campaigns_search() {
         }
     }
     // Measured: 2 and 7 of 8; at seed 15 the campaign's own interval excludes the truth, as one in twenty does.
-    assert!(named[0] <= 4 && named[1] >= 7, "{named:?}");
+    let [most, least] = stiffarm_draws::few_or_many([1, 2], [4, 7]);
+    assert!(named[0] <= most && named[1] >= least, "{named:?}");
 }
 
 /// What other effects would have to make up for is not taken from the log.

@@ -90,7 +90,7 @@ mod tests {
             ]
             tool = { translation = [0.1, -0.2, 0.3], rotation = [0.5, -2.0, 1.0] }
         "#;
-        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../robots/arms");
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../robots/arms");
         let files = std::fs::read_dir(folder).unwrap();
         let texts = files.map(|file| std::fs::read_to_string(file.unwrap().path()).unwrap());
         let modified = OBLIQUE.replace("standard", "modified");

@@ -90,7 +90,7 @@ mod tests {
     fn every_name_has_a_meaning() {
         let known: BTreeSet<String> =
             MEANINGS.iter().flat_map(|(names, _)| names.split(", ")).map(kind).collect();
-        let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/c/arm.toml");
+        let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../c/arm.toml");
         let text = std::fs::read_to_string(file).expect("the file is here");
         let (mut robot, _) = Robot::from_toml(&text, file).expect("a valid file");
         robot.outputs = Output::EACH.to_vec();

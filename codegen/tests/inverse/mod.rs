@@ -13,7 +13,7 @@ use nalgebra::{Isometry3, Vector3, Vector6};
 
 use arms::{Arm, Branch, FAMILIES, OTHERS, collection, random};
 use stiffarm_codegen::robot::{FileError, Motion, Robot};
-use stiffarm_draws::Draws;
+use stiffarm_draws::{Draws, few_or_many};
 
 /// From the pose to another: translation and rotation vector, base axes.
 fn difference(from: &Isometry3<f64>, to: &Isometry3<f64>) -> Vector6<f64> {
@@ -177,7 +177,7 @@ fn postures_of(count: usize, (kinds, each): (usize, usize)) {
 
 #[test]
 fn postures_are_branches_of_their_poses() {
-    postures_of(2000, (40, 50));
+    postures_of(few_or_many(500, 2000), (few_or_many(10, 40), 50));
 }
 
 #[test]
@@ -199,7 +199,7 @@ fn aligned_postures_are_reached_and_free_joints_stay() {
     let (mut worst, mut all_of_them, mut beside) = (0.0_f64, 0, 0);
     let (mut singular, mut turned) = (0, 0);
     for arm in all(6, 14) {
-        for k in 0..if arm.name.contains('\n') { 200 } else { 4096 } {
+        for k in 0..if arm.name.contains('\n') { 200 } else { few_or_many(600, 4096) } {
             let n = arm.robot.dof();
             let only = draws.chance(0.5).then(|| (n as f64 * draws.part()) as usize);
             let mut exact = |joint: usize| {
@@ -330,7 +330,7 @@ fn solutions_at(poses: usize, tables: usize) {
 
 #[test]
 fn there_are_no_other_solutions() {
-    solutions_at(2, 1);
+    solutions_at(few_or_many(1, 2), 1);
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use stiffarm_codegen::derive::{AsItIs, Given, steps};
 use stiffarm_codegen::number::Number;
 use stiffarm_codegen::robot::{Angle, Robot, Value};
-use stiffarm_draws::Draws;
+use stiffarm_draws::{Draws, few_or_many};
 use stiffarm_kernels::{Pose, Steps, nearest_branch};
 
 use super::arms::{Arm, FAMILIES, random, reference};
@@ -27,7 +27,7 @@ pub fn off(robot: &Robot, by: f64, draws: &mut Draws) -> Robot {
 fn missed(by: f64, draws: &mut Draws) -> (usize, usize) {
     let (mut all, mut missed) = (0, 0);
     for family in FAMILIES {
-        for _ in 0..6 {
+        for _ in 0..few_or_many(2, 6) {
             let exact: Arm = random(family, draws);
             let robot = off(&exact.robot, by, draws);
             let form =

@@ -328,10 +328,12 @@ fn found_in_time(poses: usize, seed: u64, stays: f64, jump: f64) -> Vec<String> 
 #[test]
 fn what_follows_time_is_more_than_errors_that_linger() {
     for (poses, stays) in [(60, 0.8), (90, 0.97)] {
-        let found: Vec<_> = (0..10).map(|seed| found_in_time(poses, seed, stays, 0.0)).collect();
+        let found: Vec<_> = (0..stiffarm_draws::few_or_many(4, 10))
+            .map(|seed| found_in_time(poses, seed, stays, 0.0))
+            .collect();
         let alarms = found.iter().filter(|found| found[..] != ["joint_compliance"]).count();
-        // One in twenty is allowed; three of ten are then one in eighty-seven.
-        assert!(alarms < 3, "{found:?} at {stays}");
+        // One in twenty is allowed; three of ten are then one in eighty-seven, two of four one in seventy.
+        assert!(alarms < stiffarm_draws::few_or_many(2, 3), "{found:?} at {stays}");
     }
     assert!((0..4).all(|seed| found_in_time(60, seed, 0.8, 5e-4).contains(&"slip".to_owned())));
 }

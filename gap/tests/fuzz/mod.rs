@@ -2,7 +2,7 @@
 //! place. The repository's own files are mutated; what was trouble once stands among them.
 //!
 //! A million inputs each, in minutes:
-//! `cargo test --release -p stiffarm-gap --test gap -- --ignored a_million`
+//! `cargo test --release -p stiffarm-tests --test gap -- --ignored a_million`
 
 mod effects;
 mod logs;

@@ -6,7 +6,7 @@ use stiffarm_gap::ReadError;
 use stiffarm_gap::log::{Log, Names, Opened, Signal};
 use stiffarm_kernels::Motion;
 
-const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/data/logs");
+const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../data/logs");
 const ARM: [Motion; 2] = [Motion::Revolute, Motion::Revolute];
 
 fn names() -> Names {

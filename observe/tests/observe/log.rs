@@ -79,7 +79,7 @@ fn a_cell_that_other_joints_do_without_costs_them_nothing() {
 #[test]
 fn a_wrong_header_says_what_to_mend() {
     stiffarm_draws::golden::says(
-        concat!(env!("CARGO_MANIFEST_DIR"), "/src/log/wrong.txt"),
+        concat!(env!("CARGO_MANIFEST_DIR"), "/../../observe/src/log/wrong.txt"),
         |text, _| read(text).expect_err(text).to_string(),
     );
 }

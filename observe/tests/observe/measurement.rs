@@ -282,7 +282,7 @@ fn bom_crlf_quotes_and_missing_last_line_end() {
 #[test]
 fn every_mistake_has_its_own_message() {
     stiffarm_draws::golden::says(
-        concat!(env!("CARGO_MANIFEST_DIR"), "/src/measurement/wrong.txt"),
+        concat!(env!("CARGO_MANIFEST_DIR"), "/../../observe/src/measurement/wrong.txt"),
         |text, bench| known(bench, text).expect_err(text).to_string(),
     );
     let bytes: [(&[u8], &str); 2] = [

@@ -115,7 +115,7 @@ fn joints_counted_from_zero_and_units_below_the_names() {
 #[test]
 fn what_is_wrong_is_said_with_its_place() {
     stiffarm_draws::golden::says(
-        concat!(env!("CARGO_MANIFEST_DIR"), "/src/readings/wrong.txt"),
+        concat!(env!("CARGO_MANIFEST_DIR"), "/../../observe/src/readings/wrong.txt"),
         |text, map| import_with(text, map).map(|i| i.csv).expect_err(text).to_string(),
     );
     let told = match cfg!(feature = "xlsx") {

@@ -175,3 +175,25 @@ impl Memory {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fixture::geared;
+
+    #[test]
+    fn what_a_drive_is_told_gives_what_was_asked_for() {
+        let arm = geared();
+        let mut drive = Drive::default();
+        for text in [
+            "torque_scale@joint 2=0.1",
+            "torque_offset@joint 2=2",
+            "torque_saturation@joint 2=1e-3",
+        ] {
+            drive.put(&MotionTruth::parse(text, &arm, 1).unwrap());
+        }
+        for torque in [-80.0, -1.0, 0.0, 3.0, 60.0] {
+            assert!((drive.given(drive.told(torque)) - torque).abs() < 1e-12 * 80.0);
+        }
+    }
+}

@@ -20,7 +20,7 @@ mod text;
 mod truth;
 
 #[cfg(test)]
-mod tests;
+mod steps;
 
 use nalgebra::Vector3;
 use stiffarm_kernels::generic::Arm;

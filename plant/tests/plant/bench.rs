@@ -133,8 +133,8 @@ fn plates_show_a_soft_joint() {
 }
 
 /// What sockets and plates say of the tool is what the plant's tool does: without the findings to a tenth, and with them as
-/// far as they are uncertain. Of 20 campaigns, whose errors have a number or two each, the mean square over what was told
-/// is 1 to three standard deviations, ±0.95.
+/// far as they are uncertain. Of 20 campaigns, or four, whose errors have a number or two each, the mean square over what
+/// was told is 1 to three standard deviations: ±0.95 of 20.
 #[test]
 fn the_error_at_the_tool_is_as_large_as_it_is_told() {
     let arm = loaded(Convention::Standard);
@@ -144,7 +144,7 @@ fn the_error_at_the_tool_is_as_large_as_it_is_told() {
     };
     let mut squares = Vec::new();
     for (kind, seen) in [(SOCKETS, Seen::Point), (PLATES, Seen::Plane)] {
-        for seed in 20..30 {
+        for seed in 20..stiffarm_draws::few_or_many(22, 30) {
             let mut data = measured(&arm, kind, seed);
             let kind = Kind::Pose { orientation: false };
             let mut poses = Measurements { kind, ..data.clone() };
@@ -163,7 +163,7 @@ fn the_error_at_the_tool_is_as_large_as_it_is_told() {
         }
     }
     let mean = squares.iter().sum::<f64>() / squares.len() as f64;
-    assert!((mean - 1.0).abs() < 0.95, "{mean} {squares:?}");
+    assert!((mean - 1.0).abs() < 4.25 / (squares.len() as f64).sqrt(), "{mean} {squares:?}");
 }
 
 /// The plates as a bench file says them.

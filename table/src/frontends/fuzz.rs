@@ -1,7 +1,7 @@
 //! Whatever the input, the readers of robot files and of the macro's tables answer; they never panic.
 //!
 //! A million inputs each, in minutes:
-//! `cargo test --release -p stiffarm-codegen --features macro,urdf -- --ignored a_million`
+//! `cargo test --release -p stiffarm-tests --test table_units -- --ignored a_million`
 
 use proptest::prelude::*;
 use proptest::sample::select;

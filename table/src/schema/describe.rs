@@ -161,10 +161,10 @@ fn section(depth: usize) -> String {
 mod tests {
     use super::*;
 
-    const DOCS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/");
+    const DOCS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/");
     const FENCES: [&str; 2] = ["<!-- schema -->\n", "<!-- end of schema -->"];
 
-    /// `SCHEMA=overwrite cargo test -p stiffarm-codegen --lib describe` writes both files.
+    /// `SCHEMA=overwrite cargo test -p stiffarm-tests describe` writes both files.
     #[test]
     fn the_documentation_is_of_this_schema() {
         let page = format!("{DOCS}robot-file.md");

@@ -5,6 +5,11 @@ pub mod golden;
 #[cfg(feature = "texts")]
 pub mod texts;
 
+/// What a test tries: `few`, or `many` where `STIFFARM_THOROUGH` is set, as `.ci/run` does.
+pub fn few_or_many<T>(few: T, many: T) -> T {
+    if std::env::var_os("STIFFARM_THOROUGH").is_some() { many } else { few }
+}
+
 /// Knuth's 64-bit linear congruential generator, of which the upper 53 bits are used.
 pub struct Draws(u64);
 

@@ -218,6 +218,3 @@ pub enum MeasuredError {
     )]
     Unsettled { file: String },
 }
-
-#[cfg(test)]
-mod tests;

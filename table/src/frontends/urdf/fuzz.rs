@@ -1,7 +1,7 @@
 //! Whatever the URDF, it is read or refused; what is read makes a robot file that reads back.
 //!
 //! A million inputs, in minutes:
-//! `cargo test --release -p stiffarm-codegen --features urdf -- --ignored a_million`
+//! `cargo test --release -p stiffarm-tests --test table_units -- --ignored a_million`
 
 use proptest::prelude::*;
 use stiffarm_draws::texts::{answered, mutated};

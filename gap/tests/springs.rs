@@ -1,13 +1,14 @@
 //! Against arms whose stiffnesses are known, measured by the simulator's equilibrium.
 
 use nalgebra::{Point3, Vector6};
+use stiffarm_gap::diagnose::DiagnoseError;
+use stiffarm_gap::identify::measured::{
+    Answer, MeasuredError, Parameter, Question, Status, Unknown, identify_measured,
+};
+use stiffarm_gap::measurement::Measurements;
+use stiffarm_gap::rng::{Rng, Stream};
+use stiffarm_gap::simulate::equilibrium;
 use stiffarm_kernels::generic::Arm;
-
-use super::{Answer, MeasuredError, Parameter, Question, Status, Unknown, identify_measured};
-use crate::diagnose::DiagnoseError;
-use crate::measurement::Measurements;
-use crate::rng::{Rng, Stream};
-use crate::simulate::equilibrium;
 
 fn kr240() -> Arm {
     let mut arm = crate::fixture::kr240([0.1, 0.05, 0.15]);
@@ -159,7 +160,7 @@ fn a_base_is_found_but_for_what_joint_1_does() {
         matches!(&last.status, Status::Held { with, .. } if *with == [Unknown::Joint(1)])
     };
     assert!(shows_with_joint_1(&found));
-    let bends = crate::fixture::arm(include_str!("../../../../robots/arms/lin_elbow.toml"));
+    let bends = crate::fixture::arm(include_str!("../../robots/arms/lin_elbow.toml"));
     let loads = LOADS.map(|load| load.map(|x| x / 10.0));
     let text = file(&bends, &TRANSLATIONS, 10, 1e-6, 4, &loads);
     assert!(shows_with_joint_1(&answer(&bends, &text, &question).unwrap()));
@@ -173,7 +174,7 @@ fn a_base_is_found_but_for_what_joint_1_does() {
 /// The beams of Lin's arm, half as stiff as its file says.
 #[test]
 fn links_are_found_as_multiples_of_the_files() {
-    let model = crate::fixture::arm(include_str!("../../../../robots/arms/lin_elbow.toml"));
+    let model = crate::fixture::arm(include_str!("../../robots/arms/lin_elbow.toml"));
     let mut soft = model.clone();
     let rows: Vec<usize> = (0..6).filter(|&k| model.joints[k].beam.is_some()).collect();
     for &k in &rows {

@@ -1,29 +1,16 @@
 //! The moving plant against closed forms and other programs.
 
-mod steps;
+use nalgebra::{Matrix3, Rotation3, Vector3};
+use stiffarm_gap::effects::IN_MOTION;
+use stiffarm_gap::log::{Log, LogOptions, Signal, TorqueSide, diagnose};
+use stiffarm_gap::rng::{Rng, Stream};
+use stiffarm_kernels::generic::Arm;
+use stiffarm_plant::course::{Course, Fourier, Limits, Sampled, State};
+use stiffarm_plant::motion::{
+    LAWS, Law, Logged, MotionTruth, MovingPlant, Recording, Side, Stage, csv, spread,
+};
 
-use core::f64::consts::FRAC_PI_2;
-
-use nalgebra::Matrix3;
-
-use super::*;
-use crate::course::{Fourier, Limits, State};
-use crate::effects::IN_MOTION;
-use crate::fixture::rigid;
-use crate::log::{Log, LogOptions, Signal, TorqueSide, diagnose};
-
-/// An elbow with inertias, rotors and friction.
-fn arm() -> Arm {
-    let mut arm = rigid();
-    for joint in &mut arm.joints {
-        joint.inertia = Matrix3::identity() * 0.3;
-        joint.limits = Some([-FRAC_PI_2, FRAC_PI_2]);
-        joint.drive.gear = 100.0;
-        joint.drive.rotor_inertia = 1e-4;
-        (joint.drive.coulomb, joint.drive.viscous) = (4.0, 2.0);
-    }
-    arm
-}
+use crate::fixture::geared as arm;
 
 fn course() -> Fourier {
     let limits = Limits::of(&arm(), &[1.5], &[5.0]).unwrap();
@@ -138,8 +125,7 @@ fn effects_of_the_torque_are_what_their_formulas_say() {
 #[test]
 fn masses_and_gravity_are_those_of_another_arm() {
     let tilted = |arm: &mut Arm| {
-        arm.gravity =
-            nalgebra::Rotation3::from_scaled_axis(Vector3::new(0.02, -0.01, 0.0)) * arm.gravity;
+        arm.gravity = Rotation3::from_scaled_axis(Vector3::new(0.02, -0.01, 0.0)) * arm.gravity;
     };
     let heavier = |arm: &mut Arm| {
         // Two kilograms at (0.1, 0.2, −0.1) m of the second link's frame.
@@ -235,7 +221,7 @@ fn servos_follow_their_laws() {
     let times: Vec<f64> = (0..400).map(|k| 0.02 * f64::from(k)).collect();
     let sine: Vec<f64> = times.iter().map(|t| 0.5 * (rate * t).sin()).collect();
     let joints = [vec![0.1; 400], sine, vec![-0.3; 400]];
-    let course = crate::course::Sampled::of(&times, &joints).unwrap();
+    let course = Sampled::of(&times, &joints).unwrap();
     let stage = Stage { course: &course, payload: None };
     let served = |texts: &[&str]| {
         let truths: Vec<MotionTruth> = texts.iter().map(|text| truth(text)).collect();
@@ -302,7 +288,7 @@ fn a_log_is_as_coarse_as_it_was_recorded() {
     let quiet = &quiet.record(&[Stage { course: &course, payload: None }], 7).unwrap()[0];
     assert_eq!(quiet.t, log.t);
     let off: Vec<f64> = log.tau[1].iter().zip(&quiet.tau[1]).map(|(a, b)| a - b).collect();
-    let part = record::spread(&off) / record::spread(&quiet.tau[1]);
+    let part = spread(&off) / spread(&quiet.tau[1]);
     // Four standard errors of a deviation of some four thousand.
     assert!((part / 0.05 - 1.0).abs() < 4.0 / (8000.0_f64).sqrt(), "{part}");
 }
@@ -385,11 +371,6 @@ fn a_command_is_what_its_drive_makes_of_it() {
     let truths =
         ["torque_scale@joint 2=0.1", "torque_offset@joint 2=2", "torque_saturation@joint 2=1e-3"]
             .map(truth);
-    let mut drive = drive::Drive::default();
-    truths.iter().for_each(|truth| drive.put(truth));
-    for torque in [-80.0, -1.0, 0.0, 3.0, 60.0] {
-        assert!((drive.given(drive.told(torque)) - torque).abs() < 1e-12 * 80.0);
-    }
     let (arm, course) = (arm(), course());
     let stages = [Stage { course: &course, payload: None }];
     let recorded = |side, truths: &[MotionTruth]| {
@@ -403,10 +384,10 @@ fn a_command_is_what_its_drive_makes_of_it() {
     // A controller that asks too much of a drive which gives less is where the drive's own sensor would be, once its
     // loop has met what the drive does (5 Hz, critically damped: half a second leaves 16 e⁻¹⁶ of it).
     let (asked, measured) = (recorded(Side::Commanded, &truths), recorded(Side::Motor, &truths));
-    let size = record::spread(&asked.tau[1]);
+    let size = spread(&asked.tau[1]);
     let off = asked.tau[1].iter().zip(&measured.tau[1]).map(|(a, m)| a - m);
     let off: Vec<f64> = off.skip((0.5 * PERFECT.rate) as usize).collect();
-    assert!(record::spread(&off) < 0.02 * size, "{} of {size}", record::spread(&off));
+    assert!(spread(&off) < 0.02 * size, "{} of {size}", spread(&off));
     let text = csv(&arm, Logged::Torque(Side::Commanded), &[asked], &[]);
     assert!(text.starts_with("# torque_side = commanded\n"), "{}", &text[..60]);
 }

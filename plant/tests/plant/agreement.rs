@@ -2,18 +2,18 @@
 
 use nalgebra::Vector6;
 use stiffarm_compensate::reach::{Ended, Search, Target, reach};
+use stiffarm_gap::effects::Known;
 use stiffarm_gap::identify::measured::{Question, Unknown, identify_measured};
+use stiffarm_gap::instrument::Seen;
+use stiffarm_gap::measurement::Kind;
 use stiffarm_gap::predicted::predicted;
 use stiffarm_gap::simulate::{Reading, equilibrium};
 use stiffarm_gap::whole::{Situation, Whole};
 use stiffarm_kernels::generic::Arm;
+use stiffarm_plant::design::{Design, Shape};
+use stiffarm_plant::{Plant, Truth};
 
-use crate::design::{Design, Shape};
-use crate::effects::Known;
 use crate::fixture::{known, row, springy, table};
-use crate::instrument::Seen;
-use crate::measurement::Kind;
-use crate::{Plant, Truth};
 
 const LOAD: [f64; 6] = [500.0, -300.0, -2000.0, 100.0, 50.0, -80.0];
 
@@ -159,7 +159,8 @@ fn springs_are_found_on_a_bench() {
     let arm = kr240();
     let mut stiff = arm.clone();
     stiff.joints.iter_mut().for_each(|joint| joint.compliance *= 0.8);
-    for seen in [Seen::Point, Seen::Plane, Seen::Distance, Seen::Direction, Seen::Level] {
+    let all = [Seen::Point, Seen::Plane, Seen::Distance, Seen::Direction, Seen::Level];
+    for seen in all.into_iter().step_by(stiffarm_draws::few_or_many(3, 1)) {
         let kind = Kind::Pose { orientation: true };
         let design =
             Design { shape: Shape::Force, poses: 60, repeats: 1, payload: 150.0, kind, seed: 5 };

@@ -1,10 +1,10 @@
 //! The example of an effect of one's own, run: planted, found, named, written as JSON, withheld.
 
 #[allow(dead_code, reason = "its main is for those who read it")]
-#[path = "../examples/own_effect.rs"]
-mod own_effect;
+#[path = "../../examples/own_effect.rs"]
+mod example;
 
-use own_effect::{arm, catalogue, diagnosed, measured};
+use example::{arm, catalogue, diagnosed, measured};
 use stiffarm_gap::Options;
 use stiffarm_gap::effects::{Over, Told};
 use stiffarm_gap::measurement::Kind;

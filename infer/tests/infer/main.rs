@@ -1,0 +1,5 @@
+//! What is promised of chances, on draws whose causes are known.
+
+mod asked;
+mod autocorrelation;
+mod evidence;
