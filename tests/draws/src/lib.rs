@@ -5,7 +5,7 @@ pub mod golden;
 #[cfg(feature = "texts")]
 pub mod texts;
 
-/// What a test tries: `few`, or `many` where `STIFFARM_THOROUGH` is set, as `.ci/run` does.
+/// How many cases a test has: `few`, or `many` where `STIFFARM_THOROUGH` is set, as `.ci/run` does.
 pub fn few_or_many<T>(few: T, many: T) -> T {
     if std::env::var_os("STIFFARM_THOROUGH").is_some() { many } else { few }
 }
