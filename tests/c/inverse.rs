@@ -150,7 +150,7 @@ fn cuda_program(
     };
     let values = joints * branches;
     format!(
-        "{CUDA}#define COUNT {}U
+        "{CUDA}#define COUNT {count}U
 #include \"arm.cu\"
 
 static double x[{all} * COUNT];
@@ -207,7 +207,6 @@ int main(void)
     return (int)(sides[0] - side[0] + angle[0] - {ANGLE:?});
 }}
 ",
-        count,
         sides::<f64>().map(|side| format!("{side:?}")).join(", ")
     )
 }

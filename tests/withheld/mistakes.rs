@@ -579,11 +579,11 @@ fn a_mistake_in_sockets_is_named() {
     );
 }
 
-/// A mistake with each instrument and at few poses, or two or three.
+/// Two or three mistakes with each instrument, and at few poses.
 #[test]
 fn instruments_quick() {
-    let [named, of, alarms, _] = few(1..2, few_or_many(12, 4));
-    assert!(named + few_or_many(1, of / 5) >= of && alarms == 0, "{named} of {of}, {alarms}");
+    let [named, of, alarms, _] = few(1..2, 4);
+    assert!(10 * named >= 8 * of && alarms == 0, "{named} of {of}, {alarms}");
 }
 
 #[test]

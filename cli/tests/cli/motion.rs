@@ -11,10 +11,10 @@ pub const ELBOW: &str = include_str!("../../../tests/data/elbow.toml");
 fn a_simulated_log_is_diagnosed() {
     let folder = Folder::new();
     let robot = folder.file("elbow.toml", ELBOW);
-    let log = folder.name("log.csv");
+    let (log, runs) = (folder.name("log.csv"), stiffarm_draws::few_or_many(1, 3));
     let moved = |to: &str| {
         let effect = "--effect 'coulomb_friction@joint 2=3 N·m'";
-        run(&format!("simulate {robot} {effect} --runs 1 --log {to}")).good()
+        run(&format!("simulate {robot} {effect} --runs {runs} --log {to}")).good()
     };
     moved(&log);
     let written = read(&log);
@@ -34,8 +34,8 @@ fn effects_of_a_robot_file_act_in_a_motion() {
     let effect = "\n[[effect]]\nid = \"coulomb_friction\"\nplace = \"joint 2\"\ncoulomb = 3.0\n";
     let plain = folder.file("elbow.toml", ELBOW);
     let robot = folder.file("knows.toml", format!("{ELBOW}{effect}"));
-    let log = folder.name("log.csv");
-    run(&format!("simulate {robot} --runs 1 --log {log} --lost 0%")).good();
+    let (log, runs) = (folder.name("log.csv"), stiffarm_draws::few_or_many(1, 3));
+    run(&format!("simulate {robot} --runs {runs} --log {log} --lost 0%")).good();
     let found = |robot: &str| {
         run(&format!("diagnose {robot} {log} --effects coulomb_friction --json -")).json()
     };
@@ -46,7 +46,8 @@ fn effects_of_a_robot_file_act_in_a_motion() {
     let known = found(&robot);
     assert!(list(&known["findings"]).iter().all(|f| f["place"] != "joint 2"), "{known:#}");
     let page = folder.name("check.html");
-    let few = "--motion --cases 2 --period 8s --effects viscous_friction";
+    let period = stiffarm_draws::few_or_many("8s", "15s");
+    let few = format!("--motion --cases 2 --period {period} --effects viscous_friction");
     let json = run(&format!("withhold {robot} {few} --json - --report {page}")).json();
     let page = read(&page);
     assert!(page.contains("3 runs of ") && page.contains("viscous_friction"), "{page}");
@@ -100,7 +101,9 @@ fn two_effects_are_told_from_each_other_by_a_motion() {
 fn logs_are_withheld() {
     let folder = Folder::new();
     let robot = folder.file("elbow.toml", ELBOW);
-    let few = "--motion --cases 6 --period 8s --effects coulomb_friction,viscous_friction";
+    let period = stiffarm_draws::few_or_many("8s", "15s");
+    let effects = "coulomb_friction,viscous_friction";
+    let few = format!("--motion --cases 6 --period {period} --effects {effects}");
     let json = run(&format!("withhold {robot} {few} --json -")).json();
     assert_eq!(list(&json["cases"]).len(), 6);
     assert_eq!((&json["runs"], &json["failed"]), (&Value::from(3), &Value::from(0)));

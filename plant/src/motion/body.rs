@@ -54,8 +54,8 @@ fn times(matrix: &Matrix3<f64>, v: &Vector3<f64>) -> Vector3<f64> {
 #[derive(Clone, Debug)]
 struct Link {
     motion: Motion,
-    /// From the joint frame before, or the base, to this one at zero.
-    place: Matrix4<f64>,
+    /// How the joint frame stands at zero in the one before, or the base: its axes and origin.
+    place: (Matrix3<f64>, Vector3<f64>),
     pieces: Vec<Piece>,
 }
 
@@ -84,11 +84,9 @@ impl Body {
                 Convention::Standard => (Matrix4::identity(), zero * slide(0, joint.a) * inclined),
                 Convention::Modified => (inclined * slide(0, joint.a), zero),
             };
-            body.links.push(Link {
-                motion: joint.motion,
-                place: before * ahead,
-                pieces: Vec::new(),
-            });
+            let frame = before * ahead;
+            let place = (rotation(&frame), origin(&frame));
+            body.links.push(Link { motion: joint.motion, place, pieces: Vec::new() });
             body.rows.push(behind);
             before = behind;
             body.add(body.rows.len() - 1, &Piece::about(joint.mass, joint.com, joint.inertia));
@@ -142,7 +140,7 @@ impl Body {
     /// Where the joints are.
     pub(super) fn posture(&self, q: &[f64]) -> Posture {
         let stands = |(link, q): (&Link, &f64)| {
-            let (axes, place) = (rotation(&link.place), origin(&link.place));
+            let (axes, place) = link.place;
             let [x, y, z] = [0, 1, 2].map(|k| axes.column(k).into_owned());
             match link.motion {
                 Motion::Revolute => {

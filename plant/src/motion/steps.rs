@@ -51,7 +51,7 @@ fn power(arm: &Arm, q: &[f64], rates: &DVector<f64>, torques: &[f64]) -> f64 {
 #[test]
 fn errors_go_with_the_square_of_the_step() {
     let arm = geared();
-    let (exact, _) = driven(&arm, 16_000);
+    let (exact, _) = driven(&arm, stiffarm_draws::few_or_many(16_000, 64_000));
     let runs = [500, 1000, 2000, 4000].map(|steps| {
         let (q, balance) = driven(&arm, steps);
         ((q - &exact).amax(), balance.abs())

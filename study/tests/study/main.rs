@@ -1,6 +1,5 @@
 //! What experiments are planned, and what they find of an effect of one's own.
 
-mod bench;
 mod excite;
 #[allow(dead_code)]
 #[path = "../../../gap/src/fixture.rs"]

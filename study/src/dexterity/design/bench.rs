@@ -25,7 +25,7 @@ impl Station {
     }
 
     /// How many constants it has.
-    pub fn constants(&self) -> usize {
+    pub(super) fn constants(&self) -> usize {
         match self {
             Station::Thing(aim) => aim.view.constants(),
             Station::Board(look) => look.constants(),
