@@ -22,6 +22,7 @@ robot! { mod panda_by_three from "robots/arms/panda.toml"; outputs: pose, invers
 robot! { mod stanford from "robots/arms/stanford.toml"; outputs: pose, inverse_kinematics; }
 robot! { mod plane from "robots/arms/bicchi_3r.toml"; outputs: pose, inverse_kinematics; }
 robot! { mod general from "tests/data/general.toml"; outputs: pose, inverse_kinematics; }
+robot! { mod searched from "tests/data/offset_wrist.toml"; outputs: pose, inverse_kinematics; }
 
 robot! {
     /// Link lengths that are known when the program runs.
@@ -35,20 +36,6 @@ robot! {
     a4    | q     | d4 | 0  | -pi/2
     a5    | q     | 0  | 0  | pi/2
     a6    | q     | d6 | 0  | 0
-}
-
-robot! {
-    /// A wrist with an offset, of which every solution is searched for.
-    mod searched;
-    convention: standard_dh;
-    outputs: pose, inverse_kinematics;
-    joint | theta    | d     | a    | alpha
-    a1    | q        | 0.245 | 0    | pi/2
-    a2    | q + pi/2 | 0     | 0.71 | 0
-    a3    | q        | 0     | 0    | pi/2
-    a4    | q        | 0.54  | 0    | -pi/2
-    a5    | q        | 0.15  | 0    | pi/2
-    a6    | q        | 0.16  | 0    | 0
 }
 
 robot! {

@@ -33,8 +33,6 @@ struct Setting {
     period: f64,
     /// Harmonics of the motion.
     harmonics: usize,
-    /// Part of the quick form.
-    quick: bool,
 }
 
 const MOTOR: Logged = Logged::Torque(Side::Motor);
@@ -50,10 +48,9 @@ fn settings() -> Vec<Setting> {
         runs: 1,
         period: 60.0,
         harmonics: 40,
-        quick: false,
     };
     vec![
-        Setting { quick: true, ..setting("motor", "ur10", MOTOR, usual) },
+        setting("motor", "ur10", MOTOR, usual),
         Setting {
             runs: 3,
             period: 25.0,
@@ -82,7 +79,7 @@ fn settings() -> Vec<Setting> {
                 Recording { rate: 100.0, torque: 0.01, encoder: 5e-5, lost: 0.01, ..usual },
             )
         },
-        Setting { quick: true, ..setting("servo", "ur5", Logged::Position, servo) },
+        setting("servo", "ur5", Logged::Position, servo),
         Setting {
             runs: 4,
             period: 25.0,
@@ -173,13 +170,13 @@ fn kept_apart() {
     assert!(goals.missed().is_empty(), "{goals}");
 }
 
-/// Two logs of one setting, or three of each of two: a rate must not be worse than its goal beyond chance.
+/// Three logs of each of two settings: a rate must not be worse than its goal beyond chance.
 #[test]
-fn quick() {
-    let [settings_of, logs] = stiffarm_draws::few_or_many([1, 2], [2, 3]);
-    let quick = settings().into_iter().filter(|setting| setting.quick).take(settings_of);
+#[ignore = "needs time: six logs"]
+fn needs_time_few_logs_miss_no_goal() {
+    let few = settings().into_iter().filter(|setting| ["motor", "servo"].contains(&setting.name));
     let reports: Vec<_> =
-        quick.enumerate().map(|(k, s)| run(&s, logs, 5_001 + 100 * k as u64)).collect();
+        few.enumerate().map(|(k, s)| run(&s, 3, 5_001 + 100 * k as u64)).collect();
     let goals = Goals::of(&reports, LOGS);
     let strays: String = reports.iter().map(strays).collect();
     assert!(goals.missed_beyond_chance().is_empty(), "{goals}{strays}");

@@ -2,8 +2,8 @@
 //! diagnosis is not told, and what it finds is compared with what was put in.
 //!
 //! `cargo test -p stiffarm --release --test withheld -- --ignored --nocapture full` runs the full
-//! form of campaigns and prints its table; the quick ones run with all other tests. `realistic` and
-//! `logs` have commands of their own.
+//! form of campaigns and prints its table. `realistic` and `logs` have commands of their own. `needs_time…` are short forms:
+//! some cases of each, in which a rate may miss its goal by chance alone.
 
 mod arms;
 mod bench;

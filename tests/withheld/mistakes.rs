@@ -457,13 +457,13 @@ fn both(seeds: core::ops::Range<u64>) -> usize {
     seeds.filter(is_named).count()
 }
 
-/// Every kind once, or every fourth, and arms without a mistake.
+/// Every kind once, and arms without a mistake.
 #[test]
-fn quick() {
-    let kinds: Vec<&str> = KINDS.into_iter().step_by(few_or_many(4, 1)).collect();
-    let [named, of] = total(&rates(&kinds, 1..2, Case::clean));
+#[ignore = "needs time: a search for each"]
+fn needs_time_every_kind_is_named() {
+    let [named, of] = total(&rates(&KINDS, 1..2, Case::clean));
     assert!(10 * named >= 8 * of, "{named} of {of}");
-    assert_eq!(alarms(1..few_or_many(3, 8), Case::clean), 0);
+    assert_eq!(alarms(1..8, Case::clean), 0);
     assert_eq!(given_up(1..3), 2);
 }
 
@@ -581,7 +581,8 @@ fn a_mistake_in_sockets_is_named() {
 
 /// Two or three mistakes with each instrument, and at few poses.
 #[test]
-fn instruments_quick() {
+#[ignore = "needs time: a search for each"]
+fn needs_time_kinds_with_instruments_are_named() {
     let [named, of, alarms, _] = few(1..2, 4);
     assert!(10 * named >= 8 * of && alarms == 0, "{named} of {of}, {alarms}");
 }

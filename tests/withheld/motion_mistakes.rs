@@ -345,15 +345,11 @@ fn full() {
     assert!(10 * beside <= cases, "beside {beside} of {cases} something else is named");
 }
 
-/// One of a reading, or one of the links and of a pose besides; `gap/tests/log/mistaken.rs` has one of most others.
+/// One of a reading, one of the links and one of a pose; `gap/tests/log/mistaken.rs` has one of most others.
 #[test]
-fn quick() {
-    let few = |kind: Kind| match kind {
-        Sign(Signal::Torque, 3) => true,
-        Held(false, _) => stiffarm_draws::few_or_many(false, true),
-        Zero(1, by) => by == 90.0 && stiffarm_draws::few_or_many(false, true),
-        _ => false,
-    };
+#[ignore = "needs time: a log for each"]
+fn needs_time_mistakes_in_logs_are_named() {
+    let few = |kind| matches!(kind, Sign(Signal::Torque, 3) | Held(false, _) | Zero(1, 90.0));
     let [cases, missed, beside] = all(&["ur10"], 401..402, few);
     assert!(missed == 0 && beside < 2, "{missed} of {cases} are missed, {beside} have more");
 }

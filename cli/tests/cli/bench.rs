@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::support::{Folder, REPOSITORY, has, list, number, read, run, stiffarm};
+use crate::support::{Folder, has, list, number, read, run, stiffarm};
 
 const SOCKETS: &str = "
 [[point]]
@@ -275,21 +275,16 @@ fn recordings_in_sockets_become_measurements() {
     let column = |name: &str| lines[0].split(',').position(|head| head == name).expect("a column");
     let (point, joints) = (column("point"), column("q1[rad]"));
     let rows = |socket: &str| -> Vec<Vec<f64>> {
-        let cells = |line: &&str| -> Vec<String> { line.split(',').map(str::to_owned).collect() };
-        let own = lines[1..].iter().map(cells).filter(|cells| cells[point].ends_with(socket));
-        own.map(|cells| {
-            cells[joints..joints + 6].iter().map(|c| c.parse().expect("a number")).collect()
-        })
-        .collect()
+        let cells = lines[1..].iter().map(|line| line.split(',').collect::<Vec<_>>());
+        let own = cells.filter(|cells| cells[point].ends_with(socket));
+        let numbers = |cells: &[&str]| cells.iter().map(|c| c.parse().expect("a number")).collect();
+        own.map(|cells| numbers(&cells[joints..joints + 6])).collect()
     };
-    let sockets = [".1", ".2", ".3", ".4", ".5", ".6"];
     let mut names = Vec::new();
-    for (k, socket) in sockets.iter().enumerate() {
-        let mut table = "J1;J2;J3;J4;J5;J6\n".to_owned();
-        for row in rows(socket) {
-            let cells: Vec<String> = row.iter().map(f64::to_string).collect();
-            table += &format!("{}\n", cells.join(";"));
-        }
+    for k in 0..6 {
+        let line = |row: Vec<f64>| row.iter().map(f64::to_string).collect::<Vec<_>>().join(";");
+        let table: Vec<String> = rows(&format!(".{}", k + 1)).into_iter().map(line).collect();
+        let table = format!("J1;J2;J3;J4;J5;J6\n{}\n", table.join("\n"));
         names.push(folder.file(&format!("hole_{k}.csv"), &table));
     }
     let made = folder.name("sockets.csv");
@@ -304,46 +299,24 @@ fn recordings_in_sockets_become_measurements() {
     let mut log = "t[s],q1[rad],q2[rad],q3[rad],q4[rad],q5[rad],q6[rad]\n".to_owned();
     // Each posture has three rows.
     let postures: Vec<_> = rows(".1").into_iter().step_by(3).collect();
-    let mut t = 0.0;
-    for pair in postures.windows(2) {
-        for step in 0..200 {
-            let part = (f64::from(step) / 100.0 - 1.0).max(0.0);
+    for (pair, at) in postures.windows(2).zip((0..).step_by(256)) {
+        for step in 0..256 {
+            let part = (f64::from(step) / 128.0 - 1.0).max(0.0);
             let q = pair[0].iter().zip(&pair[1]).map(|(a, b)| (a + part * (b - a)).to_string());
+            let t = f64::from(at + step) / 128.0;
             log += &format!("{t},{}\n", q.collect::<Vec<_>>().join(","));
-            t += 0.01;
         }
     }
-    let stamped: Vec<Vec<f64>> = (log.lines().skip(1))
-        .map(|line| line.split(',').map(|cell| cell.parse().expect("a number")).collect())
-        .collect();
-    let bag = folder.name("held.mcap");
-    std::fs::write(&bag, recorded(&stamped)).expect("a file");
-    let log = folder.file("held.csv", &log);
+    let held = folder.file("held.csv", &log);
     run(&format!(
-        "measurements {log} --quiet --still 0.8s --set point=one --robot irb120 --csv {made}"
+        "measurements {held} --quiet --still 0.8s --set point=one --robot irb120 --csv {made}"
     ))
     .good();
     let text = read(&made);
     assert_eq!(text.lines().count(), postures.len(), "{text}");
-    // The same of a bag, in which half a second's rests are rows where nothing is said.
-    let of_bag = folder.name("of_bag.csv");
-    let parts = read(&format!("{REPOSITORY}/robots/arms/irb120.toml"));
-    let mut parts = parts.split("[[joint]]");
-    let first = parts.next().unwrap_or_default().to_owned();
-    let joints = (1..).zip(parts).map(|(k, row)| format!("[[joint]]\nname = \"joint_{k}\"{row}"));
-    let named = folder.file("named.toml", &(first + &joints.collect::<String>()));
-    run(&format!("measurements {bag} --quiet --set point=one --robot {named} --csv {of_bag}"))
-        .good();
-    // All but the time, which a bag counts from its first message.
-    let cells = |text: &str| -> Vec<Vec<String>> {
-        let rows: Vec<Vec<&str>> = text.lines().map(|line| line.split(',').collect()).collect();
-        let kept: Vec<usize> =
-            (0..rows[0].len()).filter(|k| !rows[0][*k].starts_with("time")).collect();
-        rows.iter().map(|row| kept.iter().map(|k| row[*k].to_owned()).collect()).collect()
-    };
-    assert_eq!(cells(&text), cells(&read(&of_bag)));
+    crate::bag::gives_the_same(&folder, &log, &text);
     let told =
-        run(&format!("measurements {log} --still 5s --set point=one --robot irb120")).refused();
+        run(&format!("measurements {held} --still 5s --set point=one --robot irb120")).refused();
     assert!(told.contains("no rest of 5 s"), "{told}");
     let told = run(&format!("measurements {all} --set pint=one")).refused();
     assert!(told.contains("`pint` that is set"), "{told}");
@@ -361,47 +334,4 @@ fn joints_that_agree_by_chance_are_no_repeats() {
     assert_eq!(noise["position_from"], "residual", "{noise}");
     let true_noise = 1e-4 * f64::sqrt(3.0);
     assert!((number(&noise["position_rms"]) / true_noise - 1.0).abs() < 0.1, "{noise}");
-}
-
-/// Seconds and joint values as a recorder of ROS 2 writes `sensor_msgs/JointState` into a bag: the joints by their names, in
-/// another order than the arm's.
-fn recorded(rows: &[Vec<f64>]) -> Vec<u8> {
-    let mut bag = mcap::Writer::new(std::io::Cursor::new(Vec::new())).expect("a bag");
-    let schema = bag.add_schema("sensor_msgs/msg/JointState", "ros2msg", b"").expect("a schema");
-    let none = std::collections::BTreeMap::new();
-    let channel_id = bag.add_channel(schema, "/joint_states", "cdr", &none).expect("a channel");
-    for (sequence, row) in (0..).zip(rows) {
-        // Common Data Representation: numbers stand at multiples of their size behind the first four bytes.
-        let mut data = vec![0, 1, 0, 0];
-        let aligned = |data: &mut Vec<u8>, size: usize| {
-            data.resize(4 + (data.len() - 4).next_multiple_of(size), 0);
-        };
-        let count = |data: &mut Vec<u8>, of: usize| {
-            aligned(data, 4);
-            data.extend(u32::try_from(of).expect("few").to_le_bytes());
-        };
-        let text = |data: &mut Vec<u8>, text: &str| {
-            count(data, text.len() + 1);
-            data.extend(text.bytes().chain([0]));
-        };
-        // Since 1970: a stamp of 0 is none.
-        let nanoseconds = 1_700_000_000_000_000_000 + (1e9 * row[0]).round() as u64;
-        count(&mut data, (nanoseconds / 1_000_000_000) as usize);
-        count(&mut data, (nanoseconds % 1_000_000_000) as usize);
-        text(&mut data, "world");
-        let joints = (1..row.len()).rev();
-        count(&mut data, joints.len());
-        joints.clone().for_each(|joint| text(&mut data, &format!("joint_{joint}")));
-        count(&mut data, joints.len());
-        aligned(&mut data, 8);
-        joints.for_each(|joint| data.extend(row[joint].to_le_bytes()));
-        // Neither velocities nor efforts.
-        count(&mut data, 0);
-        count(&mut data, 0);
-        let (log_time, publish_time) = (nanoseconds, nanoseconds);
-        let header = mcap::records::MessageHeader { channel_id, sequence, log_time, publish_time };
-        bag.write_to_known_channel(&header, &data).expect("a message");
-    }
-    bag.finish().expect("an end");
-    bag.into_inner().into_inner()
 }

@@ -11,6 +11,8 @@
 mod bench;
 mod candidates;
 mod exchange;
+#[cfg(test)]
+mod plans;
 mod separate;
 mod suspect;
 #[cfg(test)]
