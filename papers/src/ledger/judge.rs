@@ -74,7 +74,7 @@ pub fn equations(paper: &Paper) -> Vec<Entry> {
             Ready { equation, printed, tokens, truth }
         })
         .collect();
-    (0..ready.len()).map(|at| entry(paper, &ready, at, &inventory)).collect()
+    stiffarm_infer::parallel::map(ready.len(), &|at| entry(paper, &ready, at, &inventory))
 }
 
 fn entry(paper: &Paper, ready: &[Ready<'_>], at: usize, inventory: &Inventory) -> Entry {
