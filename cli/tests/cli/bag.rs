@@ -66,7 +66,6 @@ fn joint_state(nanoseconds: u64, q: &[f64]) -> Vec<u8> {
     data.extend(names.flatten().chain(count));
     data.resize(4 + (data.len() - 4).next_multiple_of(8), 0);
     data.extend(joints.flat_map(|joint| q[joint].to_le_bytes()));
-    // Neither velocities nor efforts.
-    data.extend([0; 8]);
+    data.extend([0; 8]); // neither velocities nor efforts
     data
 }
