@@ -22,8 +22,8 @@ pub fn gives_the_same(folder: &Folder, log: &str, expected: &str) {
     assert_eq!(read(&made), expected);
 }
 
-/// A log of seconds and joint values as `sensor_msgs/JointState` in an MCAP file without compression or index (mcap.dev/spec): the joints
-/// by their names, in another order than the arm's.
+/// A log of seconds and joint values as `sensor_msgs/JointState` in an MCAP file without compression or index
+/// (mcap.dev/spec): the joints by their names, in another order than the arm's.
 fn recorded(log: &str) -> Vec<u8> {
     const MAGIC: &[u8] = b"\x89MCAP0\r\n";
     let record = |operation: u8, content: &[&[u8]]| {
