@@ -26,10 +26,8 @@ fn settings() -> Vec<Setting> {
     // Payloads of the makers' data sheets; Lin's arm carries a few kilograms.
     let robots = [("lin_planar", 2e4, 5.0), ("kuka_kr240", 1e6, 240.0), ("iiwa14", 1.5e4, 14.0)];
     let of_robot = |(k, (robot, stiffness, payload)): (usize, (&'static str, f64, f64))| {
-        Shape::ALL
-            .into_iter()
-            .zip((10 * k..).map(|seed| seed as u64))
-            .map(move |(shape, seed)| Setting { robot, stiffness, payload, shape, seed })
+        let all = Shape::ALL.into_iter().zip(10 * k as u64..);
+        all.map(move |(shape, seed)| Setting { robot, stiffness, payload, shape, seed })
     };
     robots.into_iter().enumerate().flat_map(of_robot).collect()
 }
